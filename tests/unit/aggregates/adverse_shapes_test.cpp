@@ -282,5 +282,33 @@ TEST(AdverseShapes, SpheresShareTheBlocksOfCylindersUnlessTheseAreFew) {
     EXPECT_FALSE(apart.layout().frustums.empty());
 }
 
+/// The largest range that begins at 0 in the float of a tree of scale 1, below it -0.
+TEST(AdverseShapes, RangesThatBeginAtMinusZeroInFloatAreThoseFromZero) {
+    PrimitiveTable table;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 center{0.001 * i, 0.0007 * (i % 7), -0.0005 * (i % 11)};
+        add(table, Sphere{center, 0.5 + 0.01 * (i % 13)}, true);
+    }
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    const auto list = make_aggregate("list", table);
+    const WideBvhAggregate tree(table, BuildOptions{});
+    Ray ray{{0.05, 0.001, 0.002}, 0x1p41 * Vec3{1, 0.3, -0.2}, 0, kInfinity};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        // Ends of ranges within 100 steps of the place where what is below them rounds to 0.
+        ray.t_min = 0x1.000002000004p-141;
+        for (int i = 0; i < 100; ++i) ray.t_min = std::nextafter(ray.t_min, 0.0);
+        for (int i = 0; i < 200; ++i) {
+            Hit expected, found;
+            ASSERT_TRUE(list->closest(ray, expected, RayQuery{nullptr}));
+            ASSERT_TRUE(tree.closest(ray, found, RayQuery{nullptr})) << target << ", step " << i;
+            ASSERT_EQ(found.t, expected.t) << target << ", step " << i;
+            ASSERT_EQ(found.primitive, expected.primitive) << target << ", step " << i;
+            ray.t_min = std::nextafter(ray.t_min, 1.0);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

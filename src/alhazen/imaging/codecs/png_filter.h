@@ -4,7 +4,7 @@
 /// Source: ISO/IEC 15948 (PNG), clause 9 (the filters), and 12.7 (the filter with the least sum of
 /// absolute differences, as signed bytes).
 /// Differs: the sums are computed in lanes, and a sign test replaces Paeth's sum; the selected
-/// filter is that of libpng.
+/// filter is that of libpng, which tries fewer for one row or column.
 /// Conventions: among equal sums the first filter is selected, as in libpng.
 
 #include <cstddef>

@@ -115,7 +115,7 @@ HWY_NOINLINE inline bool make_ray_from_afar(const LocalFrame& frame, const Ray& 
     }
     const float slack = 6.5f * 0x1p-24f * local.reach + 1.001f * local.delta;
     make_slab_ray(axes, AxisLanes::F(slack), slabs);
-    slabs.s_min = std::max(local.below[0], 0.0f);
+    slabs.s_min = std::max(0.0f, local.below[0]);  // in this order -0 becomes 0
     slabs.s_max = local.above[1];
     return true;
 }
