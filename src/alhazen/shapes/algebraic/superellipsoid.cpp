@@ -166,7 +166,8 @@ class CrossingSearch {
     }
 
     /// Slope / q = s^(r - 1) (x^(p - 1) x' + y^(p - 1) y') + z^(q - 1) z', each factor monotone
-    /// between a and b, as are the terms of the function: `value` is its range.
+    /// between a and b, as are the terms of the function: `value` is its range. Where p is 1, s is
+    /// linear and has its extremes at a and b; along a flat side it does not change.
     Slope slope_between(const Sample& a, const Sample& b, Interval& value) const {
         std::array<double, 3> lo, hi;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -174,19 +175,28 @@ class CrossingSearch {
             hi[k] = std::fmax(a.power[k], b.power[k]);
         }
         const double r = q_ / p_;
-        const double s_lo = lo[0] + lo[1], s_hi = hi[0] + hi[1];
+        double s_lo = lo[0] + lo[1], s_hi = hi[0] + hi[1];
+        const bool linear = p_ == 1.0;
+        if (linear) {
+            const double s_a = a.power[0] + a.power[1], s_b = b.power[0] + b.power[1];
+            s_lo = std::fmin(s_a, s_b);
+            s_hi = std::fmax(s_a, s_b);
+        }
         const double h_lo = std::pow(s_lo, r), h_hi = std::pow(s_hi, r);
         value = {h_lo + lo[2], h_hi + hi[2]};
         const Interval outer = ordered(h_lo / s_lo, h_hi / s_hi);
         Slope slope;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double rate = rate_[k];
-            if (rate == 0.0) continue;
-            Interval g = ordered(a.power[k] / a.at[k], b.power[k] / b.at[k]);
-            if (k < 2) g = ordered(g.lo * outer.lo, g.hi * outer.hi);
+        const auto add = [&](double rate, double size, const Interval& g) {
+            if (size == 0.0) return;
             slope.range.lo += rate * (rate > 0.0 ? g.lo : g.hi);
             slope.range.hi += rate * (rate > 0.0 ? g.hi : g.lo);
-            slope.terms += std::abs(rate) * g.hi;
+            slope.terms += size * g.hi;
+        };
+        if (linear) add(rate_[0] + rate_[1], std::abs(rate_[0]) + std::abs(rate_[1]), outer);
+        for (std::size_t k = linear ? 2 : 0; k < 3; ++k) {
+            Interval g = ordered(a.power[k] / a.at[k], b.power[k] / b.at[k]);
+            if (k < 2) g = ordered(g.lo * outer.lo, g.hi * outer.hi);
+            add(rate_[k], std::abs(rate_[k]), g);
         }
         slope.noise = 0x1p-53 * kRoundings * (p_ + q_) * slope.terms;
         return slope;

@@ -51,5 +51,17 @@ TEST(Superellipsoid, SectionsAreThoseOfItsFunction) {
     EXPECT_EQ(testing::errors_of(Superellipsoid{.north = 1000.0}), 1u);
 }
 
+/// Where an exponent is 2 sides are flat in one direction. The ray is 2.5e-8 inside at most, for a
+/// length of 0.237; both ends by 50 digits.
+TEST(Superellipsoid, RaysAlongAFlatSideCrossIt) {
+    const Superellipsoid s = prepared(Superellipsoid{.east = 2, .north = 0.2});
+    const Vec3 from{0.7304351182358412, -0.26956482214818867, 0.2385262881671824};
+    const Vec3 along{0.6497120736591199, 0.6497123234534157, 0.394649360945386};
+    testing::expect_near(crossings(s, from, along), {-0.23702, -2.3e-11}, 1e-5);
+    // From the middle of the chord, a hundredth of its depth farther in and out.
+    EXPECT_EQ(crossings(s, (1 - 1e-9) * from, along).size(), 2u);
+    EXPECT_TRUE(crossings(s, (1 + 1e-7) * from, along).empty());
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
