@@ -168,6 +168,7 @@ class CrossingSearch {
     /// Slope / q = s^(r - 1) (x^(p - 1) x' + y^(p - 1) y') + z^(q - 1) z', each factor monotone
     /// between a and b, as are the terms of the function: `value` is its range. Where p is 1, s is
     /// linear and has its extremes at a and b; along a flat side it does not change.
+    /// Where q is 1, s^(r - 1) x^(p - 1) = (x^p / s)^(1 - 1 / p), and x / y is monotone.
     Slope slope_between(const Sample& a, const Sample& b, Interval& value) const {
         std::array<double, 3> lo, hi;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -194,8 +195,16 @@ class CrossingSearch {
         };
         if (linear) add(rate_[0] + rate_[1], std::abs(rate_[0]) + std::abs(rate_[1]), outer);
         for (std::size_t k = linear ? 2 : 0; k < 3; ++k) {
-            Interval g = ordered(a.power[k] / a.at[k], b.power[k] / b.at[k]);
-            if (k < 2) g = ordered(g.lo * outer.lo, g.hi * outer.hi);
+            Interval g;
+            if (k < 2 && q_ == 1.0) {
+                const auto factor = [&](const Sample& end) {
+                    return std::pow(end.power[k] / (end.power[0] + end.power[1]), 1.0 - 1.0 / p_);
+                };
+                g = ordered(factor(a), factor(b));
+            } else {
+                g = ordered(a.power[k] / a.at[k], b.power[k] / b.at[k]);
+                if (k < 2) g = ordered(g.lo * outer.lo, g.hi * outer.hi);
+            }
             add(rate_[k], std::abs(rate_[k]), g);
         }
         slope.noise = 0x1p-53 * kRoundings * (p_ + q_) * slope.terms;

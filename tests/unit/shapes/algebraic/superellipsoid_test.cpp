@@ -61,6 +61,11 @@ TEST(Superellipsoid, RaysAlongAFlatSideCrossIt) {
     // From the middle of the chord, a hundredth of its depth farther in and out.
     EXPECT_EQ(crossings(s, (1 - 1e-9) * from, along).size(), 2u);
     EXPECT_TRUE(crossings(s, (1 + 1e-7) * from, along).empty());
+    // The other exponent: by 113 bits.
+    testing::expect_near(crossings(prepared(Superellipsoid{.east = 0.2, .north = 2}),
+                                   {-103.34479617834282, 172.55024775013786, 102.34487596653756},
+                                   {0.4549300087615857, -0.7655566940883286, -0.45493036309388357}),
+                         {225.15115114522547, 225.15314334034041}, 1e-6);
 }
 
 }  // namespace
