@@ -105,98 +105,87 @@ struct NodeValues {
     T& operator[](std::size_t i) { return reinterpret_cast<T*>(bytes)[i]; }
 };
 
-/// The value of the expression, rounded from double-double, and its gradient in double.
+/// A value in double and its gradient.
 template <std::size_t N>
-struct ValueAndGradient {
-    Numbers<N> value;
-    VectorLanes<N> gradient;
-};
-/// Both at once: neither waits for the other.
-template <std::size_t N>
-HWY_INLINE ValueAndGradient<N> at_point(std::span<const Node> nodes, const VectorLanes<N>& p) {
-    using enum PolynomialExpression::Op;
-    struct Value {
-        Pair<N> exact;
-        Numbers<N> v;
-        VectorLanes<N> g;
-    };
-    const Numbers<N> nothing(0.0);
-    NodeValues<Value> of;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Node& n = nodes[i];
-        Value& out = of[i];
-        const Value &a = of[n.a], &b = of[n.b];
-        switch (n.op) {
-            case Constant:
-                out.exact = {Numbers<N>(n.constant.high), Numbers<N>(n.constant.low)};
-                out.v = Numbers<N>(n.constant.high);
-                out.g = vectors_of<N>({});
-                break;
-            case X:
-                out = {{p.x, nothing}, p.x, vectors_of<N>({1, 0, 0})};
-                break;
-            case Y:
-                out = {{p.y, nothing}, p.y, vectors_of<N>({0, 1, 0})};
-                break;
-            case Z:
-                out = {{p.z, nothing}, p.z, vectors_of<N>({0, 0, 1})};
-                break;
-            case Add:
-                out = {a.exact + b.exact, a.v + b.v, a.g + b.g};
-                break;
-            case Subtract:
-                out = {a.exact + -b.exact, a.v - b.v, a.g - b.g};
-                break;
-            case Multiply:
-                out.exact = n.a == n.b && is_coordinate(nodes[n.a]) ? square_of(a.exact.high)
-                                                                    : a.exact * b.exact;
-                out.v = a.v * b.v;
-                out.g = b.v * a.g + a.v * b.g;
-                break;
-        }
-    }
-    const Value& whole = of[nodes.size() - 1];
-    return {whole.exact.high, whole.g};
-}
+struct Slope {
+    Numbers<N> v;
+    VectorLanes<N> g;
 
-/// The gradient of `at_point`.
+    static HWY_INLINE Slope constant(const DoubleDouble& c) {
+        return {Numbers<N>(c.high), vectors_of<N>({})};
+    }
+    static HWY_INLINE Slope coordinate(const Numbers<N>& x, const Vec3& axis) {
+        return {x, vectors_of<N>(axis)};
+    }
+    friend HWY_INLINE Slope operator+(const Slope& a, const Slope& b) {
+        return {a.v + b.v, a.g + b.g};
+    }
+    friend HWY_INLINE Slope operator-(const Slope& a, const Slope& b) {
+        return {a.v - b.v, a.g - b.g};
+    }
+    friend HWY_INLINE Slope product(const Slope& a, const Slope& b, bool) {
+        return {a.v * b.v, b.v * a.g + a.v * b.g};
+    }
+};
+/// The same, and the value in double-double. They are computed together: neither waits for the
+/// other.
 template <std::size_t N>
-HWY_INLINE VectorLanes<N> gradient_at(std::span<const Node> nodes, const VectorLanes<N>& p) {
+struct ValueAndSlope {
+    Pair<N> exact;
+    Slope<N> slope;
+
+    static HWY_INLINE ValueAndSlope constant(const DoubleDouble& c) {
+        return {{Numbers<N>(c.high), Numbers<N>(c.low)}, Slope<N>::constant(c)};
+    }
+    static HWY_INLINE ValueAndSlope coordinate(const Numbers<N>& x, const Vec3& axis) {
+        return {{x, Numbers<N>(0.0)}, Slope<N>::coordinate(x, axis)};
+    }
+    friend HWY_INLINE ValueAndSlope operator+(const ValueAndSlope& a, const ValueAndSlope& b) {
+        return {a.exact + b.exact, a.slope + b.slope};
+    }
+    friend HWY_INLINE ValueAndSlope operator-(const ValueAndSlope& a, const ValueAndSlope& b) {
+        return {a.exact + -b.exact, a.slope - b.slope};
+    }
+    friend HWY_INLINE ValueAndSlope product(const ValueAndSlope& a, const ValueAndSlope& b,
+                                            bool is_square) {
+        return {is_square ? square_of(a.exact.high) : a.exact * b.exact,
+                product(a.slope, b.slope, is_square)};
+    }
+};
+
+/// The expression at the points, as a Slope or a ValueAndSlope.
+template <class Value, std::size_t N>
+HWY_INLINE Value at_point(std::span<const Node> nodes, const VectorLanes<N>& p) {
     using enum PolynomialExpression::Op;
-    struct Value {
-        Numbers<N> v;
-        VectorLanes<N> g;
-    };
     NodeValues<Value> of;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& n = nodes[i];
-        Value& out = of[i];
         const Value &a = of[n.a], &b = of[n.b];
         switch (n.op) {
             case Constant:
-                out = {Numbers<N>(n.constant.high), vectors_of<N>({})};
+                of[i] = Value::constant(n.constant);
                 break;
             case X:
-                out = {p.x, vectors_of<N>({1, 0, 0})};
+                of[i] = Value::coordinate(p.x, {1, 0, 0});
                 break;
             case Y:
-                out = {p.y, vectors_of<N>({0, 1, 0})};
+                of[i] = Value::coordinate(p.y, {0, 1, 0});
                 break;
             case Z:
-                out = {p.z, vectors_of<N>({0, 0, 1})};
+                of[i] = Value::coordinate(p.z, {0, 0, 1});
                 break;
             case Add:
-                out = {a.v + b.v, a.g + b.g};
+                of[i] = a + b;
                 break;
             case Subtract:
-                out = {a.v - b.v, a.g - b.g};
+                of[i] = a - b;
                 break;
             case Multiply:
-                out = {a.v * b.v, b.v * a.g + a.v * b.g};
+                of[i] = product(a, b, n.a == n.b && is_coordinate(nodes[n.a]));
                 break;
         }
     }
-    return of[nodes.size() - 1].g;
+    return of[nodes.size() - 1];
 }
 
 template <std::size_t N>
@@ -245,15 +234,15 @@ HWY_INLINE std::uint32_t algebraic_of(const Algebraic& shape, std::uint32_t want
     const std::span<const Node> nodes(shape.polynomial->nodes());
     const Numbers<N> nothing(0.0);
     VectorLanes<N> p = hit_points<N>(lanes, first);
-    ValueAndGradient<N> f = at_point(nodes, p);
-    Numbers<N> squared = dot(f.gradient, f.gradient);
+    ValueAndSlope<N> f = at_point<ValueAndSlope<N>>(nodes, p);
+    Numbers<N> squared = dot(f.slope.g, f.slope.g);
     Mask<N> sure = squared > nothing;
     const VectorLanes<N> back =
         Numbers<N>(-1e-6 * shape.size) * unit_of(load_from<N>(lanes.direction, first), sure);
     const Numbers<N> most = Numbers<N>(1e-5) * (length_of(p) + length_of(back));
     std::uint32_t moving = wanted & bits_of(sure);
     for (int i = 0; i < 2; ++i) {
-        const VectorLanes<N> step = (f.value / squared) * f.gradient;
+        const VectorLanes<N> step = (f.exact.high / squared) * f.slope.g;
         const Numbers<N> size = length_of(step);
         const VectorLanes<N> next = p - step;
         const Mask<N> moves = (size <= most) & !(size <= Numbers<N>(0x1p-51) * largest_of(abs(p))) &
@@ -264,16 +253,16 @@ HWY_INLINE std::uint32_t algebraic_of(const Algebraic& shape, std::uint32_t want
         const std::uint32_t settled = settled_by_step(shape, p, size, sqrt(squared));
         p = select_lanes(lanes_of_bits<double, N>(moving), next, p);
         if (i == 1 || (moving & ~settled) == 0) {
-            f.gradient = gradient_at(nodes, p);
-            squared = dot(f.gradient, f.gradient);
+            f.slope = at_point<Slope<N>>(nodes, p);
+            squared = dot(f.slope.g, f.slope.g);
             break;
         }
-        f = at_point(nodes, p);
-        squared = dot(f.gradient, f.gradient);
+        f = at_point<ValueAndSlope<N>>(nodes, p);
+        squared = dot(f.slope.g, f.slope.g);
         moving &= bits_of(squared > nothing);
     }
     sure = sure & (squared > nothing);
-    return finish(p, unit_of(f.gradient, sure), sure, wanted, first, lanes);
+    return finish(p, unit_of(f.slope.g, sure), sure, wanted, first, lanes);
 }
 
 std::uint32_t torus(const Torus& shape, std::uint32_t wanted, LaneSurfaces& lanes) {

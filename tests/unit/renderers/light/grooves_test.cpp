@@ -8,10 +8,13 @@
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
+#include "unit/renderers/light/both_directions.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_both_directions_agree;
+using testing::expect_close;
 using testing::SceneMaker;
 
 enum class Frame { Tangents, MirroredTangents, Coordinates, MirroredCoordinates };
@@ -70,10 +73,6 @@ double value(const Scene& scene, const Vec3& view, const Vec3& light, BsdfCache*
     return scatter.value(light, Transport::Radiance).a;
 }
 
-void expect_close(double a, double b, const std::string& what) {
-    EXPECT_NEAR(a, b, 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12) << what;
-}
-
 const Frame kFrames[] = {Frame::Tangents, Frame::MirroredTangents, Frame::Coordinates,
                          Frame::MirroredCoordinates};
 
@@ -122,11 +121,7 @@ TEST(Grooves, OfThinSheetsScatterAlikeInBothDirections) {
             set_point(scene, to_eye, eye);
             set_point(scene, to_light, light);
             const std::string what = std::to_string(i);
-            const double seen = eye.value(to_light, Transport::Radiance).a;
-            expect_close(seen / std::abs(to_light.z),
-                         light.value(to_eye, Transport::Importance).a / std::abs(to_eye.z), what);
-            expect_close(eye.density(to_light), light.reverse_density(to_eye), what);
-            expect_close(light.density(to_eye), eye.reverse_density(to_light), what);
+            const double seen = expect_both_directions_agree(eye, to_eye, light, to_light, what);
             through += seen > 1e-3 && to_eye.z * to_light.z < 0;
         }
         EXPECT_GT(through, 50);

@@ -11,10 +11,12 @@
 #include "support/image_texture.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
+#include "unit/renderers/light/both_directions.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_both_directions_agree;
 using testing::matt;
 using testing::SceneMaker;
 
@@ -70,10 +72,6 @@ class Point {
     const Scene& scene_;
 };
 
-void expect_close(double a, double b, const std::string& what) {
-    EXPECT_NEAR(a, b, 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12) << what;
-}
-
 /// Light is scattered alike in whichever direction a path goes, and each density is known from both
 /// sides.
 TEST(MappedNormals, PathsOfBothDirectionsAgree) {
@@ -92,16 +90,8 @@ TEST(MappedNormals, PathsOfBothDirectionsAgree) {
                 point.set(to_eye, eye);
                 point.set(to_light, light);
                 const std::string what = std::to_string(m) + ", " + std::to_string(i);
-                const double seen = eye.value(to_light, Transport::Radiance).a;
-                // Importance has the geometric cosines of both sides.
-                const double sent = light.value(to_eye, Transport::Importance).a *
-                                    light.importance_correction(to_eye) *
-                                    std::abs(to_light.z / to_eye.z);
-                expect_close(seen, sent, what + " value");
-                expect_close(eye.density(to_light), light.reverse_density(to_eye),
-                             what + " density from the eye");
-                expect_close(light.density(to_eye), eye.reverse_density(to_light),
-                             what + " density from the light");
+                const double seen =
+                    expect_both_directions_agree(eye, to_eye, light, to_light, what);
                 lit += seen > 0;
                 turned += seen > 0 && std::copysign(1, to_eye.z) * dot(map, to_eye) < 0;
             }

@@ -10,10 +10,12 @@
 #include "support/image_texture.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
+#include "unit/renderers/light/both_directions.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_both_directions_agree;
 using testing::SceneMaker;
 
 /// Tilts of the normals towards +x, 0: no map.
@@ -75,10 +77,6 @@ void set_point(const Scene& scene, const Vec3& view, ScatterPoint& scatter) {
     scatter.set(scene, point, {}, kColorChannels, true);
 }
 
-void expect_close(double a, double b, const std::string& what) {
-    EXPECT_NEAR(a, b, 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12) << what;
-}
-
 const Maps kMaps[] = {{0.4, 0}, {0, 0.4}, {0.9, -0.5}};
 
 TEST(TiltedCoat, IsNotBentByTheMapOfTheLayersBelow) {
@@ -120,15 +118,8 @@ TEST(TiltedCoat, PathsOfBothDirectionsAgree) {
                 set_point(scene, to_light, light);
                 const std::string what = std::to_string(static_cast<int>(base)) + ", map " +
                                          std::to_string(maps.base) + ", " + std::to_string(i);
-                const double seen = eye.value(to_light, Transport::Radiance).a;
-                const double sent = light.value(to_eye, Transport::Importance).a *
-                                    light.importance_correction(to_eye) *
-                                    std::abs(to_light.z / to_eye.z);
-                expect_close(seen, sent, what + " value");
-                expect_close(eye.density(to_light), light.reverse_density(to_eye),
-                             what + " density from the eye");
-                expect_close(light.density(to_eye), eye.reverse_density(to_light),
-                             what + " density from the light");
+                const double seen =
+                    expect_both_directions_agree(eye, to_eye, light, to_light, what);
                 lit += seen > 0;
             }
             EXPECT_GT(lit, 300);
