@@ -24,6 +24,18 @@ inline std::vector<double> random_patch_weights(const ShapeSource& from, std::si
     return weights;
 }
 
+/// A block of six bilinear patches.
+inline PatchMesh patch_block(const Vec3& lo, const Vec3& hi) {
+    PatchMesh block;
+    block.degree_u = block.degree_v = 1;
+    for (int corner = 0; corner < 8; ++corner) {
+        block.points.push_back(
+            {corner & 4 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 1 ? hi.z : lo.z});
+    }
+    block.patches = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 4, 5, 2, 3, 6, 7, 0, 2, 4, 6, 1, 3, 5, 7};
+    return block;
+}
+
 /// rows * columns points of a sheet, u-major: a parallelogram with waves. The sine of the angle
 /// between its sides is above 0.05.
 inline std::vector<Vec3> random_sheet(const ShapeSource& from, int rows, int columns) {

@@ -8,6 +8,7 @@
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/primitives/surface.h"
+#include "alhazen/solids/stratified_chords.h"
 
 namespace alhazen {
 
@@ -37,6 +38,33 @@ Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable&
         },
         from.columns);
     return placement;
+}
+
+/// A bound of |m v| for vectors of length 1: the 2-norm is at most the root of the 1-norm times the
+/// maximum norm.
+double largest_stretch(const Affine& m) {
+    const Vec3 x = abs(m.linear.x_axis), y = abs(m.linear.y_axis), z = abs(m.linear.z_axis);
+    const auto sum = [](const Vec3& v) { return v.x + v.y + v.z; };
+    return std::sqrt(std::max({sum(x), sum(y), sum(z)}) * max_component(x + y + z));
+}
+
+/// The largest distance by which crossings may lie outside of patches of the table, in its frame.
+double reach_of_patches(const PrimitiveTable& table) {
+    double reach = 0;
+    const auto widen = [&](const auto& column) {
+        for (std::size_t i = 0; i < column.shapes.size(); ++i) {
+            if constexpr (requires { column.shapes[i].tree->reach(); }) {
+                double scale = 1;
+                if (column.placements[i] != kNoPlacement) {
+                    scale =
+                        largest_stretch(table.placements[column.placements[i]].outer_from_inner);
+                }
+                reach = std::max(reach, scale * column.shapes[i].tree->reach());
+            }
+        }
+    };
+    std::apply([&](const auto&... column) { (widen(column), ...); }, table.columns);
+    return reach;
 }
 
 Ray whole_line(const Affine& inner_from_outer, const Ray& ray) {
@@ -116,7 +144,9 @@ double IsolatedSolid::magnitude() const {
     const Affine& out = world_.outer_from_inner;
     const Affine& in = world_.inner_from_outer;
     const Vec3 world = magnitude_of(out, inner);
-    return max_component(magnitude_of(out, magnitude_of(in, world)));
+    // Lines fill a box that exceeds the patches by their reach on either side.
+    const double reach = largest_stretch(out) * reach_of_patches(aggregate_->primitives());
+    return max_component(magnitude_of(out, magnitude_of(in, world))) + 2 * reach / kRounding;
 }
 
 Interval IsolatedSolid::extent(const Vec3& axis) const {

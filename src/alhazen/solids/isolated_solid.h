@@ -57,7 +57,7 @@ class IsolatedSolid final : public Measurable {
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
     /// The primitives; for a CSG object its positive leaves, within their S-bounds (csg_tree.h).
     void part_extents(const Vec3& axis, std::vector<Interval>& parts) const override;
-    /// Includes the frame of the solid and, for a CSG object, its parts.
+    /// Includes the frame of the solid, for a CSG object its parts, and the reach of patches.
     [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
 

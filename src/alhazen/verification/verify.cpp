@@ -98,10 +98,11 @@ LoneSurface lone_shape(const AnyShape& any) {
     LoneSurface lone;
     std::visit(
         [&]<class S>(const S& shape) {
-            // Unbounded shapes may have an odd number of crossings.
-            lone.closed = shape.closed() && shape.box().bounded();
             auto& column = std::get<ShapeColumn<S>>(lone.table.columns);
-            column.shapes.push_back(shape);
+            S& prepared = column.shapes.emplace_back(shape);
+            prepared.prepare();
+            // Unbounded shapes may have an odd number of crossings.
+            lone.closed = prepared.closed() && prepared.box().bounded();
             column.placements.push_back(kNoPlacement);
             column.materials.push_back(MaterialId{0});
         },

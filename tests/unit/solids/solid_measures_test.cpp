@@ -11,6 +11,7 @@
 #include "alhazen/solids/stratified_chords.h"
 #include "closed_forms.h"
 #include "support/random.h"
+#include "support/random_patches.h"
 #include "support/sphere_mesh.h"
 #include "unit/formats/native/native_scene.h"
 
@@ -85,7 +86,7 @@ TEST(SolidMeasures, IntervalsOfBlocksHoldTheirRounding) {
     // All chords of a block along the axes are equal: the width is rounding alone, which depends on
     // the coordinates, not on the volume.
     testing::Random random(19);
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 40; ++i) {
         const double scale = random.log_uniform(1e-3, 1e4), far = random.log_uniform(0.1, 1e3);
         Vec3 lo, hi;
         long double w[3];
@@ -97,9 +98,12 @@ TEST(SolidMeasures, IntervalsOfBlocksHoldTheirRounding) {
         const auto [lo_x, lo_y, lo_z] = lo;
         const auto [hi_x, hi_y, hi_z] = hi;
         SceneMaker maker;
-        if (i % 3 == 0) {
+        const int kind = i < 30 ? i % 3 : 3;
+        if (kind == 0) {
             maker.add(BoxShape{lo, hi});
-        } else if (i % 3 == 1) {
+        } else if (kind == 3) {
+            maker.add(testing::patch_block(lo, hi));
+        } else if (kind == 1) {
             Polyhedron block;
             for (int k = 0; k < 3; ++k) {
                 Vec3 normal;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/random.h"
+#include "support/random_patches.h"
 #include "support/scene_maker.h"
 #include "support/sphere_mesh.h"
 
@@ -70,6 +71,17 @@ void add_instances(SceneMaker& maker) {
                       Affine::rotate(random.unit_vector(), random.uniform(0, 6)));
     }
 }
+/// Closed meshes of patches, alone and turned, and a solid of one.
+void add_patches(SceneMaker& maker) {
+    maker.add(testing::patch_block({-1, -1, -1}, {1, 1, 1}));
+    maker.add(testing::patch_block({0, 0, 0}, {1, 2, 1}), MaterialId{0},
+              Affine::rotate({1, 2, 3}, 0.5));
+    const ObjectIndex solid = maker.object("drilled");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(testing::patch_block({-2, 0, -1}, {1, 1, 1}), MaterialId{0}, {}, solid);
+    maker.add(Sphere{{-2, 1, 1}, 0.6}, MaterialId{0}, {}, solid);
+    maker.add(solid);
+}
 void add_everything(SceneMaker& maker) {
     add_triangles(maker);
     add_spheres(maker);
@@ -92,9 +104,13 @@ std::string first_of(const VerifyReport& report) {
 
 TEST(VerifyRoads, EveryRoadAgreesOnScenesOfEveryKind) {
     const std::pair<const char*, std::function<void(SceneMaker&)>> cases[] = {
-        {"triangles", add_triangles}, {"few spheres", add_few_spheres},
-        {"spheres", add_spheres},     {"solids", add_solids},
-        {"instances", add_instances}, {"everything, some of it masked", add_everything}};
+        {"triangles", add_triangles},
+        {"few spheres", add_few_spheres},
+        {"spheres", add_spheres},
+        {"solids", add_solids},
+        {"instances", add_instances},
+        {"patches", add_patches},
+        {"everything, some of it masked", add_everything}};
     for (const auto& [name, add] : cases) {
         SceneMaker maker;
         add(maker);

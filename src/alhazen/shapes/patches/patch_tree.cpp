@@ -72,9 +72,9 @@ bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& 
 PatchTree::PatchTree(PatchPieces pieces) : pieces_(std::move(pieces)) {
     pieces_.shrink_to_fit();
     for (std::size_t k = 0; k < pieces_.size(); ++k) box_.include(control_box(pieces_.net(k)));
-    const double reach = border_reach(pieces_, box_);
+    reach_ = border_reach(pieces_, box_);
     if (!box_.empty())
-        box_ = {box_.lo - Vec3{reach, reach, reach}, box_.hi + Vec3{reach, reach, reach}};
+        box_ = {box_.lo - Vec3{reach_, reach_, reach_}, box_.hi + Vec3{reach_, reach_, reach_}};
     index_ = std::make_shared<PatchIndex>(pieces_, box_);
 }
 
@@ -88,7 +88,7 @@ Interval PatchTree::extent(const Vec3& axis) const {
         }
     }
     const Vec3 size = abs(axis);
-    const double reach = border_reach(pieces_, box_) * (size.x + size.y + size.z);
+    const double reach = reach_ * (size.x + size.y + size.z);
     return {range.lo - reach, range.hi + reach};
 }
 

@@ -28,6 +28,8 @@ class PatchTree {
     explicit PatchTree(const std::vector<BezierPiece>& pieces) : PatchTree(PatchPieces(pieces)) {}
 
     [[nodiscard]] const Box3& box() const { return box_; }
+    /// The largest distance by which a crossing at a border may lie outside of its patch.
+    [[nodiscard]] double reach() const { return reach_; }
     /// Range of dot(axis, p) over the control points, rounded outward.
     [[nodiscard]] Interval extent(const Vec3& axis) const;
     /// Appends all crossings with the ray.
@@ -45,6 +47,7 @@ class PatchTree {
   private:
     PatchPieces pieces_;
     Box3 box_;
+    double reach_ = 0;
     std::shared_ptr<const PatchIndex> index_;
 };
 
