@@ -3,15 +3,12 @@
 
 #include <cmath>
 
+#include "alhazen/math/real128.h"
 #include "alhazen/math/vec.h"
 
 namespace alhazen::testing {
 
-#if defined(__SIZEOF_FLOAT128__)
-__extension__ typedef __float128 Quad;
-#else
-using Quad = long double;
-#endif
+using Quad = Real128;
 
 inline Quad square_root(Quad x) {
     if (!(x > 0)) return 0;

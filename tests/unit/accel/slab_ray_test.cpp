@@ -11,6 +11,7 @@
 
 #include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
+#include "support/quad.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "unit/accel/slab_ray_test.cpp"
@@ -41,7 +42,7 @@ namespace {
 
 ALHAZEN_KERNEL_TABLE(met);
 
-__extension__ typedef __float128 Quad;
+using testing::Quad;
 using RandomEngine = std::mt19937_64;
 
 double uniform(RandomEngine& random, double lo, double hi) {

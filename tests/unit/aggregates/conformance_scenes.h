@@ -97,7 +97,8 @@ inline PrimitiveTable sticks_table() {
     for (int i = 0; i < 200; ++i) {
         const Vec3 a = uniform_point(random, 1);
         const Vec3 thin = uniform_point(random, 0.003);
-        builder.add_triangle(a, uniform_point(random, 1), a + thin, random() % 2 == 0);
+        const bool flag = random() % 2 == 0;
+        builder.add_triangle(a, uniform_point(random, 1), a + thin, flag);
     }
     return builder.finish();
 }
