@@ -10,13 +10,7 @@ namespace alhazen::testing {
 
 using Quad = Real128;
 
-inline Quad square_root(Quad x) {
-    if (!(x > 0)) return 0;
-    Quad root = std::sqrt(static_cast<long double>(x));
-    // Each step of Newton's method doubles the digits.
-    root = (root + x / root) / 2;
-    return (root + x / root) / 2;
-}
+using alhazen::square_root;
 inline Quad magnitude(Quad x) {
     return x < 0 ? -x : x;
 }
