@@ -46,6 +46,10 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
         const auto primitive = static_cast<std::uint32_t>(solid_.expression().leaves[i]);
         turned_[primitive] = leaves[i].complement;
+        if (solid_.cuts_walls(i)) {
+            cuts_.resize(solid_.table().size(), false);
+            cuts_[primitive] = true;
+        }
         if (primitive < first_instance) continue;
         const Instance& instance = primitives().instances[primitive - first_instance];
         if (instance.of_shared_mesh && wound_inward(*instance.aggregate)) {
@@ -151,13 +155,25 @@ Opacity CsgAggregate::opacity(const CsgRay& ray, const Hit& hit) const {
     return table_of(primitives(), hit).opacity(hit.primitive);
 }
 
+void CsgAggregate::set_volume(Surface& surface) const {
+    const MaterialId volume{solid_.only_medium()};
+    if (!solid_.is_clear(surface.materials[0])) return;
+    // An instanced solid may have stated its own inside, which is outside of this one.
+    surface.media = {};
+    surface.volume.reset();
+    if (surface.material_count > 1 || surface.materials[0] != volume) surface.volume = volume;
+    surface.has_extras = true;
+}
+
 void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
                             Surface& surface) const {
     const Look seen = changes_materials() ? look(solid_.prepare(ray), t, primitive) : Look{};
     if (seen.media.known) {
         surface.media = seen.media;
+        surface.volume.reset();
         surface.has_extras = true;
     }
+    if (!cuts_.empty() && cuts_[static_cast<std::size_t>(primitive)]) set_volume(surface);
     if (seen.material) {
         surface.materials[0] = *seen.material;
         surface.material_count = 1;

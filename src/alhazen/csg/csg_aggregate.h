@@ -33,7 +33,7 @@ class CsgAggregate final : public SolidAggregate {
     void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
     [[nodiscard]] bool completes_surfaces() const override { return true; }
     [[nodiscard]] bool changes_materials() const override {
-        return solid_.has_media() || !shows_minuend_.empty();
+        return solid_.has_media() || !shows_minuend_.empty() || !solid_.wall_materials().empty();
     }
     [[nodiscard]] bool turns_normal(PrimitiveId primitive) const override {
         return turned_[static_cast<std::size_t>(primitive)];
@@ -46,6 +46,8 @@ class CsgAggregate final : public SolidAggregate {
         std::optional<MaterialId> material;
     };
     [[nodiscard]] Look look(const CsgRay& ray, double t, PrimitiveId primitive) const;
+    /// States the volume behind a cut wall, if it is not of the wall's material.
+    void set_volume(Surface& surface) const;
     [[nodiscard]] Opacity opacity(const CsgRay& ray, const Hit& hit) const;
 
     [[nodiscard]] BoundingSphere find_sphere() const;
@@ -54,6 +56,7 @@ class CsgAggregate final : public SolidAggregate {
     BoundingSphere sphere_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
     std::vector<bool> shows_minuend_;  ///< [primitive]; empty: false for all
+    std::vector<bool> cuts_;           ///< [primitive] CsgSolid::cuts_walls; empty: none does
     std::vector<bool> turned_;         ///< [primitive] true if its normal points into the solid
 };
 

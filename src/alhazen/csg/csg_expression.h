@@ -36,6 +36,8 @@ struct CsgExpression {
     /// for all.
     std::vector<bool> shows_minuend;
     std::vector<PrimitiveId> leaves;  ///< [leaf] primitive of the table
+    /// [material] true: light enters its volumes; empty: those of all that is not opaque.
+    std::vector<bool> clear;
 };
 
 /// Numbers of leaves have 31 bits, one of which distinguishes them from nodes.

@@ -17,6 +17,21 @@ namespace {
 /// their size.
 constexpr double kOffsetShare = 0x1p-8;
 
+/// Adds the materials of all surfaces.
+void add_materials(const Aggregate& aggregate, std::set<MaterialId>& all) {
+    const PrimitiveTable& table = aggregate.primitives();
+    std::apply(
+        [&](const auto&... column) {
+            (all.insert(column.materials.begin(), column.materials.end()), ...);
+        },
+        table.columns);
+    for (const PlacedMesh& placed : table.meshes) {
+        all.insert(placed.material);
+        for (const std::uint32_t m : placed.mesh->vertex_materials) all.insert(MaterialId{m});
+    }
+    for (const Instance& instance : table.instances) add_materials(*instance.aggregate, all);
+}
+
 }  // namespace
 
 CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
@@ -34,6 +49,7 @@ CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
         solids_.push_back(dynamic_cast<const SolidAggregate*>(instance.aggregate.get()));
     }
     find_media();
+    find_walls();
     find_remembered();
     unbounded_ = std::any_of(boxes.begin(), boxes.end(),
                              [](const Box3& box) { return !box.empty() && !box.bounded(); });
@@ -66,16 +82,38 @@ void CsgSolid::find_media() {
                 material = instance.aggregate->primitives().meshes.front().material;
             }
         }
-        const bool clear =
-            table_.material_opacity[static_cast<std::size_t>(material)] == Opacity::Transparent;
-        media_.push_back(inner != nullptr ? inner->only_medium()
-                         : clear          ? static_cast<std::uint32_t>(material)
-                                          : kOpaque);
+        media_.push_back(inner != nullptr           ? inner->only_medium()
+                         : is_transparent(material) ? static_cast<std::uint32_t>(material)
+                                                    : kOpaque);
         materials_.push_back(material);
         if (tree_.leaves()[leaf].complement) continue;
         if (any && media_.back() != only_medium_) has_media_ = true;
         only_medium_ = has_media_ ? kMixture : media_.back();
         any = true;
+    }
+}
+
+/// Marks the subtracted leaves whose surfaces bound the only medium of the solid without being of
+/// its material.
+void CsgSolid::find_walls() {
+    cuts_.resize(leaf_count(), false);
+    if (has_media_ || only_medium_ >= kMixture || !is_clear(MaterialId{only_medium_})) return;
+    const std::uint32_t first_instance = table_.first(kInstanceKind);
+    for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
+        if (!tree_.leaves()[leaf].complement) continue;
+        if (!expression_.shows_minuend.empty() && expression_.shows_minuend[leaf]) continue;
+        const auto id = static_cast<std::uint32_t>(expression_.leaves[leaf]);
+        std::set<MaterialId> materials;
+        if (id < first_instance) {
+            materials.insert(materials_[leaf]);
+        } else {
+            add_materials(*table_.instances[id - first_instance].aggregate, materials);
+        }
+        for (const MaterialId material : materials) {
+            if (material == MaterialId{only_medium_} || !is_clear(material)) continue;
+            cuts_[leaf] = true;
+            wall_materials_.insert(material);
+        }
     }
 }
 
@@ -147,6 +185,7 @@ void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, H
 
 std::size_t CsgSolid::memory_bytes() const {
     std::size_t bytes = tree_.memory_bytes() + materials_.capacity() * sizeof(MaterialId) +
+                        cuts_.capacity() / 8 + wall_materials_.size() * sizeof(MaterialId) +
                         media_.capacity() * sizeof(std::uint32_t) + remembered_.capacity() / 8 +
                         expression_.leaves.capacity() * sizeof(PrimitiveId) +
                         expression_.nodes.capacity() * sizeof(CsgExpression::Node) +

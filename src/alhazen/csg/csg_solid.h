@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "alhazen/csg/csg_tree.h"
@@ -69,6 +70,14 @@ class CsgSolid {
     static constexpr std::uint32_t kNoMedium = 0xFFFFFFFFu;
     static constexpr std::uint32_t kOpaque = 0xFFFFFFFEu;
     static constexpr std::uint32_t kMixture = 0xFFFFFFFDu;  ///< an instanced solid of several media
+    [[nodiscard]] bool is_transparent(MaterialId material) const {
+        return table_.material_opacity[static_cast<std::size_t>(material)] == Opacity::Transparent;
+    }
+    /// True if light enters volumes of the material.
+    [[nodiscard]] bool is_clear(MaterialId material) const {
+        const std::vector<bool>& clear = expression_.clear;
+        return clear.empty() ? is_transparent(material) : clear[static_cast<std::size_t>(material)];
+    }
     /// True if operands have different media, some of them transparent. A boundary between two
     /// media is then also a transition, out of one and into the other.
     [[nodiscard]] bool has_media() const { return has_media_; }
@@ -78,6 +87,11 @@ class CsgSolid {
     }
     /// The only medium of the solid, or kMixture.
     [[nodiscard]] std::uint32_t only_medium() const { return only_medium_; }
+    /// True if the leaf is subtracted from a solid of one clear medium and has a surface of another
+    /// clear material: that surface bounds a volume of `only_medium`.
+    [[nodiscard]] bool cuts_walls(std::uint32_t leaf) const { return cuts_[leaf]; }
+    /// The materials of those surfaces.
+    [[nodiscard]] const std::set<MaterialId>& wall_materials() const { return wall_materials_; }
     /// The material of a leaf; for an instanced solid that of its first leaf.
     [[nodiscard]] MaterialId material(std::uint32_t leaf) const { return materials_[leaf]; }
 
@@ -95,6 +109,7 @@ class CsgSolid {
     static constexpr double kPadPerTolerance = 4.0;
 
     void find_media();
+    void find_walls();
     void find_remembered();
     /// All crossings of the line with a shape.
     void intersect(std::uint32_t leaf, const Ray& line, ShapeHits& found) const;
@@ -109,8 +124,10 @@ class CsgSolid {
     CsgTree tree_;
     std::vector<MaterialId> materials_;  ///< [leaf]
     std::vector<std::uint32_t> media_;   ///< [leaf]
-    std::vector<bool> remembered_;       ///< [leaf] true if CrossingMemo keeps its crossings
-    std::uint64_t number_;               ///< from CrossingMemo::number_of_solid
+    std::vector<bool> cuts_;             ///< [leaf] cuts_walls
+    std::set<MaterialId> wall_materials_;
+    std::vector<bool> remembered_;  ///< [leaf] true if CrossingMemo keeps its crossings
+    std::uint64_t number_;          ///< from CrossingMemo::number_of_solid
     std::uint32_t only_medium_ = kOpaque;
     bool has_media_ = false;
     bool unbounded_ = false;                     ///< some leaf is unbounded

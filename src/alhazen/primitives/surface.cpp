@@ -73,6 +73,7 @@ void begin(Surface& surface) {
     surface.weights = {1, 0, 0};
     surface.material_count = 1;
     surface.media = {};
+    surface.volume.reset();
     surface.has_extras = false;
 }
 

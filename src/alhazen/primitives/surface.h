@@ -32,19 +32,27 @@ struct Surface : ShapeSurface {
     Vec3 tangent, bitangent;
     Rgba color{1, 1, 1, 1};   ///< vertex colour; white if there is none
     bool is_of_mesh = false;  ///< false: `uv2` equals `uv`
-    /// True if colour, tangents, weights or media differ from the defaults. Most surfaces have no
-    /// extras and are computed faster.
+    /// True if colour, tangents, weights, media or volume differ from the defaults. Most surfaces
+    /// have no extras and are computed faster.
     bool has_extras = false;
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
     std::array<double, 3> weights{1, 0, 0};
     int material_count = 1;
     SurfaceMedia media;
+    /// The material of the volume that the surface bounds, if it is not the surface's own: a wall
+    /// that a subtracted part of another material cuts into a solid.
+    std::optional<MaterialId> volume;
     /// Number of the hit part: parts are numbered through the objects of the description, in order.
     std::uint32_t part = 0;
     /// Number of the part that placed it in the scene: the outermost instance, or `part` itself.
     std::uint32_t instance = 0;
 };
+
+/// The material of the volume that the surface bounds.
+[[nodiscard]] inline MaterialId volume_material(const Surface& surface) {
+    return surface.volume ? *surface.volume : surface.materials[0];
+}
 
 /// Selects the surfaces whose texture coordinates and derivatives are computed, the most expensive
 /// members for shapes. For other surfaces they are undefined.

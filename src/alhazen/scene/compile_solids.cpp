@@ -25,8 +25,13 @@ const GeometryCompiler::Built& GeometryCompiler::build_solid(std::size_t index) 
             draft.expression.leaves.push_back(PrimitiveId{draft.table.first(kind) + place});
         }
         if (!draft.any_cut) draft.expression.shows_minuend.clear();
-        built.aggregate = std::make_shared<const CsgAggregate>(
+        draft.expression.clear = clear_;
+        const auto solid = std::make_shared<const CsgAggregate>(
             std::move(draft.table), std::move(draft.expression), options_.csg);
+        for (const MaterialId surface : solid->solid().wall_materials()) {
+            walls_.emplace(surface, MaterialId{solid->solid().only_medium()});
+        }
+        built.aggregate = solid;
         census_.accelerator_bytes += built.aggregate->memory_bytes();
         ++census_.solids;
         census_.solid_leaves += draft.leaves.size();

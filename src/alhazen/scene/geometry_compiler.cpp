@@ -5,6 +5,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/interruption.h"
+#include "alhazen/shading/materials/wall_material.h"
 
 namespace alhazen {
 
@@ -67,13 +68,23 @@ GeometryCompiler::GeometryCompiler(const SceneDescription& description,
 
 void GeometryCompiler::build(Scene& scene) {
     (void)find_csg_evaluator(options_.csg);  // throws for an unknown one in any scene
-    for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
+    for (const Material& m : scene.materials) {
+        opacity_.push_back(opacity_of(m));
+        clear_.push_back(is_clear(m));
+    }
     census_ = scene.census;
     count_mesh_uses();
     const Built root = build_object(static_cast<std::size_t>(d_.root));
     census_.effective_primitives = root.effective_primitives;
     census_.instance_depth = root.instance_depth;
     scene.aggregate = root.aggregate;
+    for (const auto& [surface, volume] : walls_) {
+        const auto material = [&](MaterialId id) -> const Material& {
+            return scene.materials[static_cast<std::size_t>(id)];
+        };
+        scene.walls.push_back(
+            {surface, volume, wall_material(material(surface), material(volume))});
+    }
     scene.has_masks = has_masks_;
     scene.has_partial_masks = has_partial_masks_;
     scene.has_motion = census_.moving_things > 0;

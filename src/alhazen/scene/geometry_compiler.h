@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -110,12 +111,14 @@ class GeometryCompiler {
     const CompileOptions& options_;
     std::vector<MeshDescription>* spare_meshes_;
     std::vector<Opacity> opacity_;      ///< [material]
+    std::vector<bool> clear_;           ///< [material] is_clear
     std::vector<Built> built_objects_;  ///< [object] as part of a group; null: not yet built
     std::vector<Built> built_solids_;   ///< [object] as a solid; null: not yet built
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
     PartNumbers numbers_;
-    std::vector<std::uint32_t> mesh_uses_;  ///< [mesh]
-    std::vector<Moves> moves_;              ///< [object] moves_inside
+    std::set<std::pair<MaterialId, MaterialId>> walls_;  ///< as in WallMaterial
+    std::vector<std::uint32_t> mesh_uses_;               ///< [mesh]
+    std::vector<Moves> moves_;                           ///< [object] moves_inside
     bool has_masks_ = false, has_partial_masks_ = false;
     SceneCensus census_;
 };

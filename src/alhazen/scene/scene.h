@@ -9,6 +9,7 @@
 
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/surface.h"
 #include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
@@ -37,9 +38,16 @@ struct RenderConventions {
     FilmConventions film;
 };
 
+/// The material of walls that parts of `surface` cut into volumes of `volume`.
+struct WallMaterial {
+    MaterialId surface{}, volume{};
+    Material material;
+};
+
 struct Scene {
     std::shared_ptr<const Aggregate> aggregate;  ///< null until it is built
     std::vector<Material> materials;
+    std::vector<WallMaterial> walls;  ///< those with a Surface::volume
     std::vector<Texture> textures;
     std::vector<Light> lights;
     std::vector<CameraDescription> cameras;  ///< as the shutter opens; keys have relative times
@@ -63,6 +71,16 @@ struct Scene {
     /// Null: `background` lights the scene for physically based renderers.
     std::shared_ptr<const Environment> environment;
 
+    /// The i-th material of a surface, with the volume that the surface bounds.
+    [[nodiscard]] const Material& material_of(const Surface& surface, std::size_t i = 0) const {
+        const MaterialId own = surface.materials[i];
+        if (surface.volume) {
+            for (const WallMaterial& wall : walls) {
+                if (wall.surface == own && wall.volume == *surface.volume) return wall.material;
+            }
+        }
+        return materials[static_cast<std::size_t>(own)];
+    }
     /// See `closed_parts`.
     [[nodiscard]] bool is_closed(std::uint32_t part) const {
         return part < closed_parts.size() && closed_parts[part] != 0;

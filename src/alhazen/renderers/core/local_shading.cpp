@@ -76,8 +76,7 @@ MaterialSample material_at(const Scene& scene, const Surface& surface,
                            const SolidAperture& aperture) {
     const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, surface.color, aperture};
     const auto sample = [&](std::size_t i) {
-        return evaluate(scene.materials[static_cast<std::size_t>(surface.materials[i])],
-                        scene.textures, lookup);
+        return evaluate(scene.material_of(surface, i), scene.textures, lookup);
     };
     if (surface.material_count == 1) return sample(0);
     return weighted_sum(surface.weights[0], sample(0), surface.weights[1], sample(1),
@@ -148,6 +147,11 @@ void set_media(const Scene& scene, ShadingPoint& point) {
         const bool from_inside = point.inside && !point.entering && !point.medium.is_black();
         if (point.material->physical) turn_to_view(point.own_material(), cosine, from_inside);
         point.passing = point.material->transmissive;
+        if (point.surface.volume) {
+            const MaterialSample inside = medium_at(scene, point.surface, *point.surface.volume);
+            point.medium = inside.transmissive;
+            point.medium_is_physical = inside.physical;
+        }
         return;
     }
     MaterialSample& material = point.own_material();

@@ -89,8 +89,9 @@ std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, Tinte
     if (!closed) return around;
     if (!point.entering) return media.leave(body, around);
     const MaterialSample& material = *point.material;
-    return media.enter(material.physical ? Rgb{1, 1, 1} : material.transmissive,
-                       material.absorption, body, around);
+    const bool physical = surface.volume ? point.medium_is_physical : material.physical;
+    const Rgb& kt = surface.volume ? point.medium : material.transmissive;
+    return media.enter(physical ? Rgb{1, 1, 1} : kt, material.absorption, body, around);
 }
 
 void keep_absorption(const ShadingPoint& point, bool closed, const TintedMedia& media,

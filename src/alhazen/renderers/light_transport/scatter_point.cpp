@@ -19,8 +19,7 @@ SurfaceLookup lookup_at(const Surface& surface) {
 void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, Bsdf& bsdf) {
     const SurfaceLookup lookup = lookup_at(surface);
     const auto of = [&](std::size_t i) {
-        return bsdf_of(scene.materials[static_cast<std::size_t>(surface.materials[i])],
-                       scene.textures, lookup, place);
+        return bsdf_of(scene.material_of(surface, i), scene.textures, lookup, place);
     };
     if (surface.material_count == 1) {
         bsdf = of(0);
@@ -82,7 +81,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         map_ = Map{point.mapped, surface.shading_normal, tangent, turned};
     }
     local_view_ = frame_.to_local(view_);
-    inside_ = volume_of(point);
+    inside_ = volume_of(scene, point);
     others_.clear();
     if (others != nullptr) others_ = *others;
     media_known_ = point.behind.known;

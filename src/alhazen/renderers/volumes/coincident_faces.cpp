@@ -86,7 +86,7 @@ void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {
         const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
         const MaterialSample& sample = *other_.material;
-        others_.push_back({volume_of(other_), other_.entering, false, !box.bounded(),
+        others_.push_back({volume_of(scene_, other_), other_.entering, false, !box.bounded(),
                            sample.physical, sample.transmissive});
     }
 }
@@ -101,7 +101,7 @@ void CoincidentFaces::sort_entered(const ShadingPoint& point, const Vec3& direct
     if (entered_.size() < 2) return;
     const auto same = [](const Entered& a, const Entered& b) { return a.left == b.left; };
     const auto outer = [](const Entered& a, const Entered& b) { return a.left > b.left; };
-    const Medium own = volume_of(point);
+    const Medium own = volume_of(scene_, point);
     for (std::size_t k = 0; k < entered_[0].left.size(); ++k) {
         follow(leaving_ray(point.surface, outward(point, direction, k)), k, own, arrival, mask);
         std::stable_sort(entered_.begin(), entered_.end(), outer);
@@ -144,7 +144,7 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
             other_.material->thin) {
             continue;
         }
-        const Medium volume = volume_of(other_);
+        const Medium volume = volume_of(scene_, other_);
         if (other_.entering) {
             within_.push_back({volume.part, volume.material, entered_.size()});
             continue;

@@ -27,7 +27,7 @@ bool bounds_a_volume(const MaterialSample& m) {
 }
 
 const Material& first_material(const Scene& scene, const Surface& surface) {
-    return scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    return scene.material_of(surface);
 }
 
 /// Share of the dielectric in the reflection of a physical material.
@@ -78,6 +78,8 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
     point.medium_is_physical = met.physical || !tints_events_;
     if (const SurfaceMedia& media = point.surface.media; media.known && media.before) {
         point.medium = medium_at(scene_, point.surface, *media.before).transmissive;
+    } else if (point.surface.volume) {
+        point.medium = medium_at(scene_, point.surface, *point.surface.volume).transmissive;
     }
     point.behind = {true, sides.behind != kOutside, sides.here / sides.beyond,
                     media_[sides.behind].absorption, sides.behind};
@@ -120,7 +122,8 @@ double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point,
         return medium == kOutside ? m.index : of_material(m.material, m.index);
     };
     const auto own = [&] {
-        return of_material(static_cast<std::size_t>(surface.materials[0]), point.material->index);
+        return of_material(static_cast<std::size_t>(volume_material(surface)),
+                           point.material->index);
     };
     double here = 1, beyond = 1;
     if (point.behind.joined) {
@@ -249,10 +252,12 @@ ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint
 }
 
 ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
-                                           const MaterialSample& sample) const {
+                                           const MaterialSample& met) const {
     Medium medium;
     medium.part = part_number({surface.part, surface.instance});
-    medium.material = static_cast<std::uint32_t>(surface.materials[0]);
+    medium.material = static_cast<std::uint32_t>(volume_material(surface));
+    const MaterialSample sample =
+        surface.volume ? medium_at(scene_, surface, *surface.volume) : met;
     medium.index = sample.index;
     if (sample.physical) {
         medium.absorption = sample.absorption;

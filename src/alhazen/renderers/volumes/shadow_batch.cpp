@@ -181,6 +181,9 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
             medium = &medium_;
             closed = true;
             if (wall) material = medium;
+        } else if (surface.volume) {
+            medium_ = medium_at(scene_, surface, *surface.volume);
+            medium = &medium_;
         }
         // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(*material)) continue;

@@ -17,10 +17,14 @@ namespace alhazen {
 }
 
 /// The volume that a surface bounds.
-[[nodiscard]] inline Medium volume_of(const ShadingPoint& point) {
-    const MaterialSample& material = *point.material;
-    return {part_number({point.surface.part, point.surface.instance}), material.index,
-            material.absorption, static_cast<std::uint32_t>(point.surface.materials[0])};
+[[nodiscard]] inline Medium volume_of(const Scene& scene, const ShadingPoint& point) {
+    const Surface& surface = point.surface;
+    Medium volume{part_number({surface.part, surface.instance}), point.material->index,
+                  point.material->absorption, static_cast<std::uint32_t>(volume_material(surface))};
+    if (surface.volume) {
+        volume.absorption = medium_at(scene, surface, *surface.volume).absorption;
+    }
+    return volume;
 }
 
 }  // namespace alhazen

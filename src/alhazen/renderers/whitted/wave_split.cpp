@@ -40,7 +40,7 @@ double eta_by_wave(const Scene& scene, const ShadingPoint& point, double nm) {
         };
         return side(surface.media.before) / side(surface.media.after);
     }
-    const double own = index(surface.materials[0], point.material->index);
+    const double own = index(volume_material(surface), point.material->index);
     return point.entering ? air / own : own / air;
 }
 
