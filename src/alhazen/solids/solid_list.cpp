@@ -169,6 +169,10 @@ SolidPlace SolidList::place(SolidId id) const {
     const Node* node = root_;
     std::uint64_t number = static_cast<std::uint64_t>(id);
     bool of_shared_mesh = false;
+    // A part that moves may take two levels.
+    const auto add_part = [&](std::uint32_t part) {
+        if (place.parts.empty() || place.parts.back() != part) place.parts.push_back(part);
+    };
     // Finds the last instance whose solids begin at or before the number. Instances without solids
     // are skipped, because the next one begins at the same number.
     while (node->csg == nullptr && !node->instances.empty() &&
@@ -179,7 +183,8 @@ SolidPlace SolidList::place(SolidId id) const {
         const Instance& instance = node->aggregate->primitives().instances[i];
         number -= node->instance_number[i];
         of_shared_mesh = instance.of_shared_mesh;
-        place.parts.push_back(instance.part);
+        // What rests beside moving parts has no part of its own.
+        if (!instance.holds_rest) add_part(instance.part);
         place.world = {place.world.outer_from_inner * instance.placement.outer_from_inner,
                        instance.placement.inner_from_outer * place.world.inner_from_outer};
         node = node->instances[i];
@@ -193,13 +198,13 @@ SolidPlace SolidList::place(SolidId id) const {
         place.shape = node->solid_shapes[number];
         with_column(table, place.shape, [&](const auto& column, std::uint32_t i) {
             place.material = column.materials[i];
-            place.parts.push_back(column.parts.empty() ? 0 : column.parts[i]);
+            add_part(column.parts.empty() ? 0 : column.parts[i]);
         });
     } else {
         place.kind = SolidPlace::Kind::Mesh;
         place.mesh = node->solid_meshes[number - node->solid_shapes.size()];
         place.material = table.meshes[place.mesh].material;
-        if (!of_shared_mesh) place.parts.push_back(table.meshes[place.mesh].part);
+        if (!of_shared_mesh) add_part(table.meshes[place.mesh].part);
     }
     return place;
 }

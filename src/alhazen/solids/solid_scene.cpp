@@ -9,6 +9,7 @@
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
@@ -113,27 +114,25 @@ SolidScene::SolidScene(const SceneDescription& description, const Scene& scene)
 }
 
 void SolidScene::name_parts(const SceneDescription& description) {
-    std::vector<std::size_t> first_part;
-    std::vector<int> uses(description.objects.size());
+    const PartNumbers numbers(description);
     std::size_t parts = 0;
-    for (const ObjectDescription& object : description.objects) {
-        first_part.push_back(parts);
-        parts += object.parts.size();
-        for (const Part& part : object.parts) {
-            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                ++uses[static_cast<std::size_t>(*child)];
-            }
-        }
-    }
+    for (const ObjectDescription& object : description.objects) parts += object.parts.size();
     part_names_.resize(parts);
-    // An object that is placed once is flattened: the names of its parts begin with its own name.
+    // The names of the parts of an object that the compiler dissolves in the one around it begin
+    // with its own name. The path to those of other objects names them itself.
+    const auto joins = [&](const Part& part, std::size_t child) {
+        if (description.objects[child].combine != Combine::Group) {
+            return numbers.uses_of(child) == 1;
+        }
+        return numbers.is_dissolved(child) && !part.motion;
+    };
     struct Waiting {
         std::size_t object;
         std::string prefix;
     };
     std::vector<Waiting> waiting{{static_cast<std::size_t>(description.root), ""}};
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        if (uses[i] > 1 && i != static_cast<std::size_t>(description.root)) {
+    for (std::size_t i = 0; i < description.objects.size(); ++i) {
+        if (numbers.uses_of(i) > 1 && i != static_cast<std::size_t>(description.root)) {
             waiting.push_back({i, ""});
         }
     }
@@ -146,9 +145,13 @@ void SolidScene::name_parts(const SceneDescription& description) {
             std::string name = at.prefix + own_name(description, part);
             if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
                 const auto index = static_cast<std::size_t>(*child);
-                if (uses[index] == 1) waiting.push_back({index, name + "/"});
+                if (joins(part, index)) {
+                    waiting.push_back({index, name + "/"});
+                } else if (numbers.uses_of(index) == 1) {
+                    waiting.push_back({index, ""});
+                }
             }
-            part_names_[first_part[at.object] + i] = std::move(name);
+            part_names_[numbers.first_of(at.object) + i] = std::move(name);
         }
     }
 }

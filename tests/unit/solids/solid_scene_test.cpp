@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/solids/solid_queries_json.h"
@@ -48,6 +52,73 @@ TEST(SolidScene, SolidsAreCalledByThePartsThatLeadToThem) {
     using Densities = std::vector<std::optional<double>>;
     EXPECT_EQ(solids.densities(SolidId{2}), (Densities{1.5}));
     EXPECT_EQ(solids.densities(SolidId{0}), (Densities{std::nullopt}));
+}
+
+/// The names of all solids, and those that a word selects.
+struct Names {
+    std::vector<std::string> all, chosen;
+};
+Names names_of(SceneMaker& maker, const std::string& word) {
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    Names names;
+    for (std::uint64_t i = 0; i < solids.solids().count(); ++i) {
+        names.all.push_back(solids.name(SolidId{i}));
+    }
+    for (const SolidId id : solids.select(std::vector<std::string>{word})) {
+        names.chosen.push_back(solids.name(id));
+    }
+    std::sort(names.all.begin(), names.all.end());
+    return names;
+}
+
+/// The last part of an object.
+Part& last_part(SceneMaker& maker, ObjectIndex object) {
+    return maker.description().objects[static_cast<std::size_t>(object)].parts.back();
+}
+/// Moves it along x while the shutter is open.
+void move(Part& part, const Affine& inner = {}) {
+    part.motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({1, 0, 0})}}, inner});
+    part.object_from_part = inner;
+}
+
+TEST(SolidScene, WhatMovesOrRestsBesideItHasTheNameOfItsParts) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const ObjectIndex car = maker.object("car"), trailer = maker.object("trailer"),
+                      root = maker.description().root;
+    maker.add(Sphere{{0, 0, 0}, 0.5}, grey, {}, car);
+    last_part(maker, car).name = "wheel";
+    maker.add(Sphere{{0, 0, 3}, 0.2}, grey, {}, car);
+    last_part(maker, car).name = "spin";
+    move(last_part(maker, car), Affine::scale({2, 2, 2}));
+    for (const std::string name : {"red", "blue"}) {
+        maker.add(car, MaterialId{0}, Affine::translate({name == "red" ? 0.0 : 9.0, 0, 0}));
+        last_part(maker, root).name = name;
+    }
+    maker.add(BoxShape{}, grey, {}, trailer);
+    maker.add(trailer);
+    move(last_part(maker, root));
+    maker.add(Sphere{{0, 0, 50}, 1}, grey);
+    const Names names = names_of(maker, "red/wheel");
+    EXPECT_EQ(names.all, (std::vector<std::string>{"blue/spin", "blue/wheel", "red/spin",
+                                                   "red/wheel", "sphere", "trailer/box"}));
+    EXPECT_EQ(names.chosen, (std::vector<std::string>{"red/wheel"}));
+}
+
+TEST(SolidScene, AnObjectWithItsOwnAcceleratorNamesItsPartsOnce) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const ObjectIndex inner = maker.object("inner"), outer = maker.object("outer");
+    maker.description().objects[static_cast<std::size_t>(inner)].accelerator = "list";
+    maker.add(Sphere{}, grey, {}, inner);
+    maker.add(BoxShape{}, grey, Affine::translate({4, 0, 0}), inner);
+    maker.add(inner, MaterialId{0}, {}, outer);
+    maker.add(outer);
+    const Names names = names_of(maker, "outer/inner");
+    EXPECT_EQ(names.all, (std::vector<std::string>{"outer/inner/box", "outer/inner/sphere"}));
+    EXPECT_EQ(names.chosen.size(), 2u);
 }
 
 /// (steel - black) + (steel - (black - brass)), and the same with brass as one more operand.
