@@ -31,7 +31,7 @@ GeometryCompiler::Built GeometryCompiler::seal_motion(Draft all,
     Built built = finish(all);
     if (resting) --census_.instances;
     if (built.instance_depth >= static_cast<int>(kMaxInstanceDepth)) {
-        throw Error(ErrorKind::Resource,
+        throw Error(ErrorKind::Scene,
                     fmt::format("objects that move are nested too deep: with what moves in "
                                 "them {} levels, at most {} are supported",
                                 built.instance_depth, kMaxInstanceDepth - 1));

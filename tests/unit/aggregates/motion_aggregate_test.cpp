@@ -265,5 +265,38 @@ TEST(MotionAggregate, AnOperandOfASolidCannotMove) {
     EXPECT_EQ(diagnostics.error_count(), 1u);
 }
 
+/// An object that moves in one that moves, and so on, with a part at rest beside each.
+void add_chain(SceneMaker& maker, int levels) {
+    SceneDescription& d = maker.description();
+    const MaterialId matt = maker.material({});
+    ObjectIndex last = maker.object("0");
+    maker.add(Sphere{}, matt, {}, last);
+    for (int i = 1; i <= levels; ++i) {
+        const ObjectIndex next = i == levels ? d.root : maker.object(std::to_string(i));
+        const Affine inner = Affine::translate({0.1, 0, 0});
+        maker.add(last, MaterialId{0}, inner, next);
+        d.objects[static_cast<std::size_t>(next)].parts.back().motion =
+            std::make_shared<const PartMotion>(
+                PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({0, 0, 0.1})}}, inner});
+        maker.add(Sphere{{0, 5, 0}, 1}, matt, {}, next);
+        last = next;
+    }
+}
+
+TEST(MotionAggregate, ALongChainOfMovingObjectsIsAFaultOfTheScene) {
+    SceneMaker supported;
+    add_chain(supported, 10);
+    EXPECT_TRUE(supported.compile().has_motion);
+    SceneMaker deep;
+    add_chain(deep, 20);
+    try {
+        (void)deep.compile();
+        FAIL() << "expected an error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Scene);
+        EXPECT_NE(std::string(error.what()).find("nested too deep"), std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
