@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
+#include "alhazen/base/diagnostics.h"
 #include "support/random_shapes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -46,6 +50,19 @@ void expect_all_described(ShapeTypes<S...>) {
 
 TEST(ShapeFields, DescribeEveryShapeCompletely) {
     expect_all_described(AnalyticShapes{});
+}
+
+TEST(ShapeFields, FindingsHaveTheNumberThatWasGiven) {
+    for (const auto& [radius, text] :
+         {std::pair{1e-310, "not 1e-310"}, {-2.5, "not -2.5"}, {1e71, "not 1e+71"}}) {
+        Sphere ball;
+        ball.radius = radius;
+        Diagnostics diagnostics;
+        ball.validate({}, diagnostics);
+        ASSERT_EQ(diagnostics.error_count(), 1u);
+        const std::string& found = diagnostics.all()[0].message;
+        EXPECT_NE(found.find(text), std::string::npos) << found;
+    }
 }
 
 }  // namespace

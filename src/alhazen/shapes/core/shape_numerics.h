@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "alhazen/base/number_text.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/quadratic.h"
 #include "alhazen/math/unit_vector.h"
@@ -142,7 +143,7 @@ class FieldChecks {
         if (!usable || !(value <= kMaxCoordinate)) {
             fail(std::string(field) + " must be a number " +
                  (least == 0.0 ? "that is zero or " : "") + "from 1e-70 to 1e70, not " +
-                 std::to_string(value));
+                 shortest(value));
         }
     }
     void vector(const char* field, const Vec3& v) {

@@ -265,6 +265,11 @@ TEST(NurbsSurface, BadInputIsNamed) {
     expect([](auto& s) { s.degree_u = 40; }, "degree_u must be from 1 to 7, not 40");
     expect([](auto& s) { s.weights[3] = 0; }, "weight 3");
     expect([](auto& s) { s.weights[3] = -1; }, "weight 3");
+    expect(
+        [](auto& s) {
+            s.trims = {{TrimCurve{.points = {{1, 0}, {2, 0}}, .weights = {1, 1e-9}}}};
+        },
+        "weight 1 must be from 1e-6 to 1e6, not 1e-09");
     expect([](auto& s) { s.points[2].y = std::nan(""); }, "point 2");
     expect(
         [](auto& s) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "alhazen/base/number_text.h"
 #include "alhazen/math/orientation.h"
 #include "alhazen/shapes/patches/nurbs/bspline_pieces.h"
 
@@ -167,7 +168,7 @@ void check_trim_values(TrimFindings& findings, const std::string& name, const Tr
     for (std::size_t k = 0; k < curve.weights.size(); ++k) {
         if (!(curve.weights[k] >= 1e-6 && curve.weights[k] <= 1e6)) {
             findings.fail(name + ": weight " + std::to_string(k) +
-                          " must be from 1e-6 to 1e6, not " + std::to_string(curve.weights[k]));
+                          " must be from 1e-6 to 1e6, not " + shortest(curve.weights[k]));
         }
     }
 }
