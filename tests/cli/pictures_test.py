@@ -144,6 +144,16 @@ class Pictures(CommandLineCase):
         self.assertIn("stopped", messages)
         self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
 
+    def test_an_interrupt_in_a_round_keeps_the_rounds_before(self):
+        # One tile: no tile of the last round is done.
+        process = self.at_work(self.scene, "-o", self.path("out.pfm"), "--size", "32x32", "-t", "1", "--renderer", "path_tracing",
+                               "--time", f"{10 * PATIENCE:.0f}s")
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 75)
+        self.assertIn("stopped in round", messages)
+        self.assertTrue(self.read("out.pfm").startswith(b"PF"))
+
     def test_rendering_stops_within_one_pixel(self):
         # Each surface splits a ray in two: an eye ray spawns up to 2^200 others.
         glass = "material = { diffuse = 0; reflective = 1; transmissive = 1; index = 1.5 }"
