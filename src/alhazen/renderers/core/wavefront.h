@@ -51,12 +51,6 @@ class Generation {
         rays_.clear();
         paths_.clear();
     }
-    /// All rays at once, each with the same path.
-    void begin(std::span<const Ray> rays, const Path& path) {
-        rays_.assign(rays.begin(), rays.end());
-        paths_.assign(rays.size(), path);
-    }
-    [[nodiscard]] std::span<Path> paths() { return paths_; }
     /// Returns the number of the new ray.
     std::uint32_t add(const Ray& ray, const Path& path) {
         rays_.push_back(ray);
