@@ -58,7 +58,6 @@ int check(const Scene& scene, std::size_t points) {
             expected.push_back(light_at(scene, met.back(), expected_count));
         }
         std::vector<Rgb> found(size);
-        direct.expect(size < 100 ? Coherence::Coherent : Coherence::Any);
         for (std::size_t i = 0; i < size; ++i) direct.add(met[i], found[i]);
         direct.finish();
         for (std::size_t i = 0; i < size; ++i) {

@@ -57,6 +57,7 @@ class Generation {
         paths_.push_back(path);
         return static_cast<std::uint32_t>(rays_.size() - 1);
     }
+    [[nodiscard]] Path& last_path() { return paths_.back(); }
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
     /// Allocates the radiance of the rays, black. Call after the last ray is added.
     void make_ready() { radiance_.assign(rays_.size(), Rgb{}); }

@@ -65,6 +65,10 @@ concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
+/// Mirrored and refracted rays of neighbours stay neighbours for a few generations: these are
+/// traced as coherent rays unless their directions are drawn at random.
+inline constexpr int kLastCoherentGeneration = 2;
+
 /// Traces batches of eye rays; memory is reused from batch to batch.
 template <class Randomness>
 class RecursiveEstimator {
@@ -163,8 +167,7 @@ class RecursiveEstimator {
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
-            const Coherence coherence = depth == 0 ? Coherence::Coherent : Coherence::Any;
-            direct_ ? direct_->expect(coherence) : shadows_.expect(coherence);
+            if (!direct_) shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
             intersect_surfaces(part, depth, met == 0, front);
             direct_ ? direct_->finish() : shadows_.finish();
             trace_all(front.next, depth + 1);
@@ -187,7 +190,9 @@ class RecursiveEstimator {
     /// Finds the next surface along each active ray; `first`: none has been found yet.
     void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
-        const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
+        const int coherent = kDrawsNothing ? kLastCoherentGeneration : 0;
+        const Coherence coherence =
+            first && depth <= coherent ? Coherence::Coherent : Coherence::Any;
         const auto path_of = [&](std::size_t k) -> const Path& {
             return part.paths[front.active[k]];
         };
@@ -271,11 +276,14 @@ class RecursiveEstimator {
             return;
         }
         met.own = unshadowed_terms(conventions_, ambient_, point);
-        const LeavingRays from(point.surface);
-        direct_ ? direct_->add(point, met.direct) : add_direct_light(seen, from, met.direct);
+        if (direct_) {
+            direct_->add(point, met.direct);
+        } else {
+            add_direct_light(seen, LeavingRays(point.surface), met.direct);
+        }
         if (seen.depth < conventions_.max_depth) {
-            if (conventions_.trace_reflections) reflect(seen, from, met, front.next);
-            if (conventions_.trace_refractions) transmit(seen, from, met, front);
+            if (conventions_.trace_reflections) reflect(seen, met, front.next);
+            if (conventions_.trace_refractions) transmit(seen, met, front);
         }
         if (!tracks_media()) return;
         met.filter = tint_along(conventions_, point, scene_.is_closed(point.surface.part), tinted_,
@@ -307,16 +315,14 @@ class RecursiveEstimator {
         }
     }
 
-    /// The path of a ray that the surface sends on.
-    static Path onward_path(const Seen& seen, RayKind kind, const Rgb& contribution) {
-        Path path = seen.path;
+    /// Changes the path of the ray that met the surface to that of a ray that the surface sends on.
+    static void send_on(const Seen& seen, RayKind kind, const Rgb& contribution, Path& path) {
         path.kind = kind;
         path.contribution = contribution;
         path.cone = seen.path.cone.from(seen.t);
-        return path;
     }
 
-    void reflect(const Seen& seen, const LeavingRays& from, MetSurface& met, Generation& next) {
+    void reflect(const Seen& seen, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
@@ -332,18 +338,20 @@ class RecursiveEstimator {
         }
         random_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
-        met.reflected = next.add(onward_ray(conventions_, from, direction),
-                                 onward_path(seen, RayKind::Reflection, contribution));
+        // Copied as a whole and then changed: a local path would be copied in pieces.
+        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), seen.path);
+        send_on(seen, RayKind::Reflection, contribution, next.last_path());
     }
 
-    void transmit(const Seen& seen, const LeavingRays& from, MetSurface& met, Wavefront& front) {
+    void transmit(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
         if (kt.is_black()) return;
         const Rgb contribution = seen.path.contribution * met.share * kt;
         if (contribution.max() < conventions_.min_contribution) return;
-        Path onward = onward_path(seen, RayKind::Refraction, contribution);
+        Path onward = seen.path;
+        send_on(seen, RayKind::Refraction, contribution, onward);
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
@@ -364,9 +372,9 @@ class RecursiveEstimator {
             if (scene_.has_masks) hide_from_shadows(seen, onward);
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
-            split(seen, from, onward, met, front);
+            split(seen, onward, met, front);
         } else {
-            met.refracted = send_refracted(seen, from, onward, front.next);
+            met.refracted = send_refracted(seen, onward, front.next);
         }
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
     }
@@ -382,20 +390,18 @@ class RecursiveEstimator {
     }
 
     /// Adds a refracted ray for each wavelength.
-    void split(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
-               Wavefront& front) {
+    void split(const Seen& seen, const Path& onward, MetSurface& met, Wavefront& front) {
         met.split = true;
         met.refracted = static_cast<std::uint32_t>(front.split.size());
         for (const WaveSplit::Wave& wave : split_->waves()) {
             Path path = onward;
             path.nm = static_cast<float>(wave.nm);
-            front.split.push_back(send_refracted(seen, from, path, front.next));
+            front.split.push_back(send_refracted(seen, path, front.next));
         }
     }
 
     /// Adds a refracted ray and returns its number; kNotSent for total internal reflection.
-    std::uint32_t send_refracted(const Seen& seen, const LeavingRays& from, const Path& onward,
-                                 Generation& next) {
+    std::uint32_t send_refracted(const Seen& seen, const Path& onward, Generation& next) {
         const ShadingPoint& point = seen.point;
         Vec3 direction = seen.ray.direction;
         if (!point.material->thin &&
@@ -404,7 +410,7 @@ class RecursiveEstimator {
             return MetSurface::kNotSent;
         }
         random_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        return next.add(onward_ray(conventions_, from, direction), onward);
+        return next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
 
     /// Refractive index on the side of the ray over that behind, at wavelength `nm`; 0: without
