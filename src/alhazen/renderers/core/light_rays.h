@@ -39,8 +39,8 @@ struct alignas(64) LightRays {
     double intensity[3][kMost], cosine[kMost], highlight[kMost];
 };
 
-/// Sets `result`; returns the number of rays. `count`: a multiple of ShadedPoints::kStep, of which
-/// the first `wanted` are of interest.
+/// Sets `result` for the first `wanted` points; returns the number of rays. The points behind them,
+/// up to a whole step, are read, too.
 std::size_t aim_at_light(const ShadingConventions& conventions, const Light& light,
                          std::size_t wanted, const ShadedPoints& points, LightRays& result);
 
