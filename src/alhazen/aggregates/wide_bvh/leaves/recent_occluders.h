@@ -7,6 +7,7 @@
 /// Differs: the last eight, and only those of which the filter is sure (leaves/shape_filters.h).
 /// Conventions: belongs to one batch, so that counts of work do not depend on earlier ones.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -19,8 +20,8 @@ class RecentOccluders {
     RecentOccluders();
 
     [[nodiscard]] const BoxBlock& block() const { return block_; }
-    /// Whether the next ray is to be tested. Where few rays are occluded by the block, most are
-    /// not.
+    /// Whether the next rays, up to kTogether, are to be tested. Where few rays are occluded by the
+    /// block, most are not.
     [[nodiscard]] bool worth_trying() {
         if (!block_.ids[0].used()) return false;
         if (credit_ > 0) return true;
@@ -28,17 +29,20 @@ class RecentOccluders {
         skipped_ = 0;
         return true;
     }
-    void tried(bool occluded) {
-        credit_ = occluded ? (credit_ + kGain < kMost ? credit_ + kGain : kMost)
-                           : (credit_ > 0 ? credit_ - 1 : 0);
+    void tried(std::uint32_t rays, std::uint32_t occluded) {
+        const int change = kGain * static_cast<int>(occluded) - static_cast<int>(rays - occluded);
+        credit_ = std::clamp(credit_ + change, 0, kMost);
     }
     /// Takes the place of the one that was added first.
     void add(const BoxBlock& block, std::size_t lane);
 
+    /// Rays that are tested together.
+    static constexpr std::size_t kTogether = 8;
+
   private:
     /// A test in vain takes about a fifth of the time that another one saves.
     static constexpr int kGain = 4, kMost = 32;
-    static constexpr std::uint32_t kSkipped = 32;
+    static constexpr std::uint32_t kSkipped = 4;
 
     BoxBlock block_;
     std::size_t next_ = 0;
