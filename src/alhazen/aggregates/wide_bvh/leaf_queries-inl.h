@@ -495,9 +495,12 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     /// Whether a flat shape that occluded a ray of the batch before certainly does. `found`: what
     /// the filter of their block finds.
     template <class Stats>
-    HWY_INLINE bool take_recent(const RecentOccluders& recent, const FilteredShapes& found,
+    HWY_INLINE bool take_recent(RecentOccluders& recent, const FilteredShapes& found,
                                 Stats stats) {
-        if (take_sure(recent.block(), found, stats)) return true;
+        if (take_sure(recent.block(), found, stats)) {
+            recent.keep(sure_lane);
+            return true;
+        }
         stats.primitives(used_lanes(recent.block()));
         return false;
     }

@@ -3,9 +3,10 @@
 /// own: the filter of this one block is tried before the tree.
 ///
 /// Source: Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE CG&A 6(9),
-/// 1986 (the last occluder is tested first).
-/// Differs: the last eight, and only those of which the filter is sure (leaves/shape_filters.h).
-/// Conventions: belongs to one batch, so that counts of work do not depend on earlier ones.
+/// 1986 (the last occluder is tested first); Corbato, "A Paging Experiment with the Multics
+/// System", 1968 (those in use have a second chance). Differs: the last eight, and only those of
+/// which the filter is sure (leaves/shape_filters.h). Conventions: belongs to one batch, so that
+/// counts of work do not depend on earlier ones.
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +34,9 @@ class RecentOccluders {
         const int change = kGain * static_cast<int>(occluded) - static_cast<int>(rays - occluded);
         credit_ = std::clamp(credit_ + change, 0, kMost);
     }
-    /// Takes the place of the one that was added first.
+    /// The shape of a lane occluded a ray again.
+    void keep(std::size_t lane) { kept_ |= 1u << lane; }
+    /// Takes the place of the one that was added first, except those that have been kept since.
     void add(const BoxBlock& block, std::size_t lane);
 
     /// Rays that are tested together.
@@ -46,6 +49,7 @@ class RecentOccluders {
 
     BoxBlock block_;
     std::size_t next_ = 0;
+    std::uint32_t kept_ = 0;  ///< bits of lanes
     int credit_ = kMost / 2;
     std::uint32_t skipped_ = 0;
 };
