@@ -113,8 +113,8 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
     source.finish_all(stats);
 }
 
-/// Tests rays against the last occluders of their batch: of the filters of two rays at a time.
-/// Nothing branches on what they find. Precondition: `queries` are valid.
+/// The filter of the last occluders for several rays, two of them at a time. Nothing branches on
+/// what it finds.
 template <class Query>
 HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std::size_t count,
                               FilteredShapes* found) {
@@ -147,11 +147,11 @@ HWY_INLINE void run_singly(const WideBvhScene& scene, std::span<const Ray> rays,
     RecentOccluders& recent = *scene.recent;
     alignas(64) std::byte places[kTogether][(sizeof(Query) + 63) / 64 * 64];
     FilteredShapes found[kTogether];
-    for (std::size_t first = 0; first < rays.size(); first += kTogether) {
+    for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
         Query* queries[kTogether];
         bool follows[kTogether];
         std::size_t count = 0;
-        const std::size_t end = std::min(first + kTogether, rays.size());
+        end = std::min(first + (recent.empty() ? 1 : kTogether), rays.size());
         for (std::size_t i = first; i < end; ++i) {
             if (results[i]) continue;
             follows[count] = begins_near_last(scene.layout->frame, rays[i]);
@@ -159,7 +159,8 @@ HWY_INLINE void run_singly(const WideBvhScene& scene, std::span<const Ray> rays,
             count += queries[count]->valid;
         }
         if (count == 0) continue;
-        if (recent.worth_trying()) {
+        const auto tried = static_cast<std::uint32_t>(count);
+        if (recent.worth_trying(tried)) {
             filter_recent(recent.block(), queries, count, found);
             std::size_t left = 0;
             for (std::size_t n = 0; n < count; ++n) {
@@ -168,8 +169,7 @@ HWY_INLINE void run_singly(const WideBvhScene& scene, std::span<const Ray> rays,
                 follows[left] = follows[n];
                 left += !hit;
             }
-            recent.tried(static_cast<std::uint32_t>(count),
-                         static_cast<std::uint32_t>(count - left));
+            recent.tried(tried, tried - static_cast<std::uint32_t>(left));
             count = left;
         }
         for (std::size_t n = 0; n < count; ++n) {
