@@ -114,8 +114,7 @@ HWY_INLINE AxisRows<PacketFloats> slopes_of(const LanePacket& packet) {
 HWY_INLINE SureRange<PacketFloats> sure_range(const LanePacket& packet) {
     using F = PacketFloats;
     const F sz = load_row(packet.reciprocal[packet.kz]);
-    return {sz, F(packet.place_error) * abs(sz), load_row(packet.sure_min),
-            load_row(packet.sure_max)};
+    return {F(packet.place_error) * abs(sz), load_row(packet.sure_min), load_row(packet.sure_max)};
 }
 
 /// Bits of the rays of `lanes` that may hit a shape: shape_candidates with rays in the lanes. If
@@ -155,8 +154,7 @@ HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
     sure = 0;
     if (lanes == 0) return 0;
     const SlabLine<F> slab = line_in_slab(line.along, line.climb, unit);
-    Chord<F> chord = side;
-    clip_to_slab(slab, F(block.half_height[i] + slack), chord);
+    const Chord<F> chord = common_part(side, chord_in_slab(slab, F(block.half_height[i] + slack)));
     lanes = reaching(chord, packet, lanes);
     if (!kSure || lanes == 0 || (block.certain >> i & 1) == 0) return lanes;
     F hi;
@@ -180,14 +178,16 @@ HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
     const F unit = load_row(packet.reciprocal[packet.kz]);
     const F a = chord.first * unit, b = chord.last * unit;
     lanes &= ~bits_of(chord.first > chord.last);
-    lanes = reaching({min_lanes(a, b), max_lanes(a, b)}, packet, lanes);
+    const Chord<F> parameters{min_lanes(a, b), max_lanes(a, b)};
+    lanes = reaching(parameters, packet, lanes);
     sure = 0;
     if (lanes == 0 || !(block.inset[i] < BoxBlock::kNotFlat)) return lanes;
     const F off = line.off_axis(), spread = line.spread(half[2]), inset(block.inset[i]);
     lanes &= ~bits_of(outside_ball(off, spread, F(block.radius[i] + 2.0f * slack), inset));
     if (!kSure || lanes == 0 || !(block.inset[i] < BoxBlock::kNoInset)) return lanes;
     F hi;
-    sure = lanes & bits_of(line.sure(half, inset, F(slack), off, spread, sure_range(packet), hi));
+    sure = lanes & bits_of(line.sure(half, inset, F(slack), off, spread, parameters,
+                                     sure_range(packet), hi));
     return lanes;
 }
 

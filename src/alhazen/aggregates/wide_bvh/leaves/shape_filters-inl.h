@@ -160,36 +160,32 @@ HWY_INLINE SlabLine<F> line_in_slab(const F& along, const F& slope, const F& uni
     return {-(along * inverse), abs(inverse)};
 }
 template <class F>
-HWY_INLINE void clip_to_slab(const SlabLine<F>& line, const F& half, Chord<F>& chord) {
+HWY_INLINE Chord<F> chord_in_slab(const SlabLine<F>& line, const F& half) {
     const F reach = half * line.stretch;
-    chord.first = max_lanes(chord.first, line.middle - reach);
-    chord.last = min_lanes(chord.last, line.middle + reach);
+    return {line.middle - reach, line.middle + reach};
 }
 template <class F>
-HWY_INLINE Chord<F> whole_line() {
-    return {F(-std::numeric_limits<float>::infinity()), F(std::numeric_limits<float>::infinity())};
+HWY_INLINE Chord<F> common_part(const Chord<F>& a, const Chord<F>& b) {
+    return {max_lanes(a.first, b.first), min_lanes(a.last, b.last)};
 }
 
 /// What is certainly in the range of a ray.
 template <class F>
 struct SureRange {
-    F sz, slack;  ///< of a coordinate along the main axis: its parameter, and the error of that
+    F slack;  ///< the error of a parameter
     F min, max;
 
+    /// A part of the ray that is certainly in the range.
+    [[nodiscard]] HWY_INLINE Chord<F> certain() const { return {min + slack, max - slack}; }
     /// The lanes whose part from `first` to `last` is in the range; `hi`: parameters not before it.
     HWY_INLINE auto holds(const F& first, const F& last, F& hi) const {
-        const F a = first * sz, b = last * sz;
-        return holds_parameters(min_lanes(a, b), max_lanes(a, b), hi);
-    }
-    HWY_INLINE auto holds_parameters(const F& first, const F& last, F& hi) const {
         hi = last + slack;
         return (first - slack >= min) & (hi <= max);
     }
 };
 template <class In>
 HWY_INLINE SureRange<typename In::F> sure_range(const In& in) {
-    return {in.number([](const auto& at) HWY_ATTR { return at.ray.sz; }),
-            in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; }),
+    return {in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; }),
             in.number([](const auto& at) HWY_ATTR { return at.ray.sure_min; }),
             in.number([](const auto& at) HWY_ATTR { return at.ray.sure_max; })};
 }
@@ -256,17 +252,18 @@ struct RoundLine {
         const F never(std::numeric_limits<float>::infinity());
         F hi_in, hi_out;
         const auto inside = (left > F(0.0f)) & (narrow > F(0.0f));
-        const auto enters = inside & range.holds_parameters(outer.first, middle - reach, hi_in);
-        const auto leaves = inside & range.holds_parameters(middle + reach, outer.last, hi_out);
+        const auto enters = inside & range.holds(outer.first, middle - reach, hi_in);
+        const auto leaves = inside & range.holds(middle + reach, outer.last, hi_out);
         hi = min_lanes(select_lanes(enters, hi_in, never), select_lanes(leaves, hi_out, never));
         return enters | leaves;
     }
-    /// Those that enter it, in `within` as well.
+    /// Those that enter it, in `within`, which is in the range.
     HWY_INLINE auto surely_enters(const Chord<F>& outer, const F& narrow, const Chord<F>& within,
                                   const SureRange<F>& range, F& hi) const {
         const F left = room(narrow), in = middle - half(left);
-        return (left > F(0.0f)) & (narrow > F(0.0f)) & range.holds_parameters(outer.first, in, hi) &
-               (within.first <= outer.first) & (in <= within.last);
+        hi = in + range.slack;
+        return (left > F(0.0f)) & (narrow > F(0.0f)) & (within.first <= outer.first) &
+               (in <= within.last);
     }
 };
 
@@ -308,8 +305,8 @@ struct CylinderLine {
     /// range. `side`: the chord in the wider one. Few rays only leave through it.
     HWY_INLINE auto sure(const Chord<F>& side, const SlabLine<F>& slab, const F& half_height,
                          const F& radius, const F& slack, const SureRange<F>& range, F& hi) const {
-        Chord<F> between = whole_line<F>();
-        clip_to_slab(slab, half_height - slack - slack, between);
+        const Chord<F> between =
+            common_part(range.certain(), chord_in_slab(slab, half_height - slack - slack));
         return round.surely_enters(side, radius - slack - slack, between, range, hi);
     }
 };
@@ -334,8 +331,7 @@ HWY_INLINE std::uint32_t filter_shapes(const In<FrustumBlock>& in) {
     const Chord<F> side = line.round.chord(radius + slack, missed);
     if (!kAtOnce && (lanes & ~missed) == 0) return 0;
     const SlabLine<F> slab = line_in_slab(line.along, line.climb, unit);
-    Chord<F> chord = side;
-    clip_to_slab(slab, half_height + slack, chord);
+    const Chord<F> chord = common_part(side, chord_in_slab(slab, half_height + slack));
     const std::uint32_t met = lanes & ~missed & finish_filter(in, chord);
     const std::uint32_t certain =
         met & in.bits([](const auto& block) HWY_ATTR { return block.certain; });
@@ -378,29 +374,29 @@ struct BoxLine {
     /// The chord in the box; of flat shapes, if it is not empty, that in the third slab, where
     /// their plane is met.
     HWY_INLINE Chord<F> chord(const F (&half)[3], const F& inset) const {
-        Chord<F> across = whole_line<F>();
-        clip_to_slab(slab[2], half[2], across);
-        Chord<F> chord = across;
-        clip_to_slab(slab[0], half[0], chord);
-        clip_to_slab(slab[1], half[1], chord);
+        const Chord<F> across = chord_in_slab(slab[2], half[2]);
+        const Chord<F> aside =
+            common_part(chord_in_slab(slab[0], half[0]), chord_in_slab(slab[1], half[1]));
+        const Chord<F> chord = common_part(across, aside);
         const auto plane = (inset < F(BoxBlock::kNotFlat)) & (chord.first <= chord.last);
         return {select_lanes(plane, across.first, chord.first),
                 select_lanes(plane, across.last, chord.last)};
     }
     /// The lanes that cross the third slab within the narrower ones of the first two for certain,
-    /// or within a narrower disc (BoxBlock::inset), in the range. `half` includes the slack.
+    /// or within a narrower disc (BoxBlock::inset), in the range. `half` includes the slack;
+    /// `parameters`: of the chord in the third slab.
     HWY_INLINE auto sure(const F (&half)[3], const F& inset, const F& slack, const F& off,
-                         const F& spread, const SureRange<F>& range, F& hi) const {
+                         const F& spread, const Chord<F>& parameters, const SureRange<F>& range,
+                         F& hi) const {
         const F less = slack + slack + inset;
-        Chord<F> within = whole_line<F>(), flat = whole_line<F>();
-        clip_to_slab(slab[0], half[0] - less, within);
-        clip_to_slab(slab[1], half[1] - less, within);
-        clip_to_slab(slab[2], half[2], flat);
+        const Chord<F> within = common_part(chord_in_slab(slab[0], half[0] - less),
+                                            chord_in_slab(slab[1], half[1] - less));
+        const Chord<F> flat = chord_in_slab(slab[2], half[2]);
         const F room = -(inset + slack + slack + spread);  // of a disc, whose radius is -inset
         const auto in_rectangle =
             (inset >= F(0.0f)) & (within.first <= flat.first) & (flat.last <= within.last);
         const auto in_disc = (room > F(0.0f)) & (off <= room * room);
-        return (in_rectangle | in_disc) & range.holds(flat.first, flat.last, hi);
+        return (in_rectangle | in_disc) & range.holds(parameters.first, parameters.last, hi);
     }
 };
 
@@ -435,14 +431,14 @@ HWY_INLINE std::uint32_t filter_shapes(const In<BoxBlock>& in) {
     const Chord<F> chord = line.chord(half, inset);
     const F unit = parameter_unit(in), a = chord.first * unit, b = chord.last * unit;
     // Where the chord is empty, NaN among others, it is in parameters, too.
-    std::uint32_t met =
-        finish_filter(in, {min_lanes(a, b), max_lanes(a, b)}) & ~bits_of(chord.first > chord.last);
+    const Chord<F> parameters{min_lanes(a, b), max_lanes(a, b)};
+    std::uint32_t met = finish_filter(in, parameters) & ~bits_of(chord.first > chord.last);
     if (!kAtOnce && met == 0) return 0;
     const F off = line.off_axis(), spread = line.spread(half[2]);
     met &= ~bits_of(outside_ball(off, spread, radius + slack + slack, inset));
     F hi;
     const std::uint32_t sure =
-        met & bits_of(line.sure(half, inset, slack, off, spread, sure_range(in), hi));
+        met & bits_of(line.sure(half, inset, slack, off, spread, parameters, sure_range(in), hi));
     in.set_sure(sure, hi);
     return met;
 }
