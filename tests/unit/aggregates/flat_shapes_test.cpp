@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -270,7 +271,7 @@ TEST(FlatShapes, RaysOfABatchTryTheLastOccludersBeforeTheTree) {
         scene.recent = &recent;
         const WideBvhKernelPair kernels = wide_bvh_kernels(8);
         bool occluded[64] = {};
-        kernels.counting.occluded_batch(scene, rays, occluded, &all);
+        kernels.counting.occluded_batch(scene, rays, std::span<bool>(occluded), &all);
         for (const bool met : occluded) EXPECT_TRUE(met) << target;
         EXPECT_GT(one.node_visits, 0u);
         EXPECT_EQ(all.node_visits, one.node_visits) << target;
@@ -338,9 +339,10 @@ TEST(FlatShapes, ABatchWithLastOccludersFindsWhatSingleRaysDo) {
         scene.recent = &recent;
         bool occluded[1000] = {};
         for (std::size_t i = 0; i < 1000; i += 17) occluded[i] = true;
-        wide_bvh_kernels(8).plain.occluded_batch(scene, rays, occluded, nullptr);
+        wide_bvh_kernels(8).plain.occluded_batch(scene, rays, std::span<bool>(occluded), nullptr);
         for (std::size_t i = 0; i < 1000; ++i) {
-            EXPECT_EQ(occluded[i], i % 17 == 0 || tested.occluded(rays[i])) << target << " " << i;
+            EXPECT_EQ(occluded[i], i % 17 == 0 || tested.occluded(rays[i], {nullptr}))
+                << target << " " << i;
         }
     }
 }
