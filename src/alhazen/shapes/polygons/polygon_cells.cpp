@@ -93,11 +93,22 @@ PolygonCells::PolygonCells(std::span<const Vec3> vertices, std::span<const std::
     const auto set_place = [&](std::size_t cell, Place place) {
         places_[cell / kInWord] |= static_cast<std::uint64_t>(place) << (2 * (cell % kInWord));
     };
-    // Where edges cross the line through the middles of a row of parts: the first part whose middle
-    // is beyond.
-    std::vector<std::vector<std::uint32_t>> crossings(parts);
+    // [row of parts] where edges cross the line through its middle: the first part whose middle is
+    // beyond, as a list.
+    struct Crossing {
+        std::uint32_t part, next;
+    };
+    constexpr std::uint32_t kEnd = ~0u;
+    std::vector<Crossing> crossings;
+    struct Span {
+        std::uint32_t row, from, to;
+    };
+    std::vector<Span> near_edges;
+    std::vector<std::uint32_t> last_crossing(parts, kEnd);
     for (const CellEdge& edge : edges) {
         parts_near(edge, parts, [&](std::size_t row, std::size_t from, std::size_t to) {
+            near_edges.push_back({static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(from),
+                                  static_cast<std::uint32_t>(to)});
             for (std::size_t k = from / kParts; k <= to / kParts; ++k) {
                 set_place(row / kParts * side_ + k, Place::NearEdge);
             }
@@ -105,7 +116,9 @@ PolygonCells::PolygonCells(std::span<const Vec3> vertices, std::span<const std::
             if (edge.y0 <= middle && middle < edge.y1) {
                 const double part = std::floor(edge.x_at(middle) + 0.5);
                 if (part < static_cast<double>(parts)) {
-                    crossings[row].push_back(static_cast<std::uint32_t>(std::max(part, 0.0)));
+                    crossings.push_back(
+                        {static_cast<std::uint32_t>(std::max(part, 0.0)), last_crossing[row]});
+                    last_crossing[row] = static_cast<std::uint32_t>(crossings.size() - 1);
                 }
             }
         });
@@ -116,34 +129,40 @@ PolygonCells::PolygonCells(std::span<const Vec3> vertices, std::span<const std::
         near += static_cast<std::size_t>(std::popcount(word & kNearBits));
     }
     parts_.assign(near, 0);
-    for (const CellEdge& edge : edges) {
-        parts_near(edge, parts, [&](std::size_t row, std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i <= to; ++i) {
-                parts_[near_before(row / kParts * side_ + i / kParts)] |=
-                    static_cast<std::uint32_t>(Place::NearEdge)
-                    << (2 * (row % kParts * kParts + i % kParts));
-            }
+    // Calls f(cell, bits) for the cells of a part of a row; the lower bits of its places there.
+    const auto for_cells = [&](std::size_t row, std::size_t from, std::size_t to, auto&& f) {
+        for (std::size_t k = from / kParts; k <= to / kParts; ++k) {
+            const std::size_t lo = std::max(from, k * kParts) - k * kParts;
+            const std::size_t hi = std::min(to - k * kParts, kParts - 1);
+            const std::uint32_t bits = 0x55u >> (2 * (kParts - 1 - (hi - lo))) << (2 * lo);
+            f(row / kParts * side_ + k, bits << (2 * kParts * (row % kParts)));
+        }
+    };
+    for (const Span& span : near_edges) {
+        for_cells(span.row, span.from, span.to, [&](std::size_t cell, std::uint32_t bits) {
+            parts_[near_before(cell)] |= bits << 1;
         });
     }
     // Inside, from crossing to crossing: parts of cells near an edge, and the other cells by the
     // first row of their parts.
+    std::vector<std::size_t> here;
     for (std::size_t row = 0; row < parts; ++row) {
-        std::vector<std::uint32_t>& here = crossings[row];
+        here.clear();
+        for (std::uint32_t i = last_crossing[row]; i != kEnd; i = crossings[i].next) {
+            here.push_back(crossings[i].part);
+        }
         std::sort(here.begin(), here.end());
+        if (here.size() % 2 != 0) here.push_back(parts);
         for (std::size_t n = 0; n < here.size(); n += 2) {
-            const std::size_t end = n + 1 < here.size() ? here[n + 1] : parts;
-            for (std::size_t i = here[n]; i < end;) {
-                const std::size_t cell = row / kParts * side_ + i / kParts;
+            if (here[n] == here[n + 1]) continue;
+            for_cells(row, here[n], here[n + 1] - 1, [&](std::size_t cell, std::uint32_t bits) {
                 if ((places_[cell / kInWord] >> (2 * (cell % kInWord)) & 2) == 0) {
                     if (row % kParts == 0) set_place(cell, Place::Inside);
-                    i = (i / kParts + 1) * kParts;
-                    continue;
+                    return;
                 }
                 std::uint32_t& places = parts_[near_before(cell)];
-                const std::size_t at = 2 * (row % kParts * kParts + i % kParts);
-                if ((places >> at & 2) == 0) places |= std::uint32_t{1} << at;
-                ++i;
-            }
+                places |= bits & ~(places >> 1);
+            });
         }
     }
 }

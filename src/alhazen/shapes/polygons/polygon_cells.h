@@ -9,6 +9,7 @@
 /// Complexity: a point takes O(1). 0.3 bytes for each of 16 x 16 cells, or along each axis half of
 /// the largest power of two that is not above the number of corners, at most 256: 20 KB; and four
 /// bytes for each cell near an edge, mostly about as much.
+/// While they are made, 20 bytes for each row of parts of an edge.
 
 #include <array>
 #include <bit>
