@@ -94,6 +94,14 @@ HWY_INLINE void expect_shape(const WideBvhScene& scene, const FrustumBlock& bloc
     hwy::Prefetch(&cylinder.frustum.x_axis);
     hwy::Prefetch(&cylinder.frustum.bounding_radius_squared);
 }
+HWY_INLINE void expect_shape(const WideBvhScene& scene, const BoxBlock& block, std::size_t lane) {
+    const PrimitiveId id = block.ids[lane].id();
+    if (!is_bare<Polygon>(*scene.table, id)) return;
+    const Polygon& polygon = shape_of<Polygon>(*scene.table, id);
+    hwy::Prefetch(&polygon);
+    hwy::Prefetch(&polygon.normal);
+    hwy::Prefetch(&polygon.cells);
+}
 
 struct SphereCrossings {
     double t[2];

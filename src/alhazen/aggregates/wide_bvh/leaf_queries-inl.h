@@ -492,18 +492,17 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
         }
         return false;
     }
-    /// Whether a flat shape that occluded a ray of the batch before certainly does.
+    /// Whether a flat shape that occluded a ray of the batch before certainly does. `found`: what
+    /// the filter of their block finds.
     template <class Stats>
-    HWY_INLINE bool visit_recent(RecentOccluders& recent, Stats stats) {
-        if (!recent.worth_trying()) return false;
-        const BoxBlock& block = recent.block();
-        FilteredShapes found;
-        const std::uint32_t rest = shape_candidates<false>(block, this->filter, this->slabs.s_min,
-                                                           this->slabs.s_max, found);
-        const bool hit = rest != 0 && take_sure(block, found, stats);
-        if (!hit) stats.primitives(used_lanes(block));
-        recent.tried(hit);
-        return hit;
+    HWY_INLINE bool take_recent(RecentOccluders& recent, const FilteredShapes& found,
+                                Stats stats) {
+        if (take_sure(recent.block(), found, stats)) {
+            recent.keep(sure_lane);
+            return true;
+        }
+        stats.primitives(used_lanes(recent.block()));
+        return false;
     }
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
