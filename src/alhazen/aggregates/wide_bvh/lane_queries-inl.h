@@ -82,6 +82,10 @@ class LaneLeaves : public LaneShapes<Derived> {
                 continue;
             }
             LoneRay<Derived> ray(scene_, packet_, i, derived());
+            if (ref.is_leaf()) {
+                if (!ray.visit(ref, stats)) ray.finish(stats);
+                continue;
+            }
             if (!traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
                                              false, ray, stats)) {
                 ray.finish(stats);
