@@ -27,7 +27,9 @@ TableCurve::MeshView TableCurve::view(PrimitiveId id) const {
     const PlacedMesh& placed = writer_.mesh_of(id);
     const TriangleMesh& mesh = *placed.mesh;
     const bool same = mesh.vertex_materials.empty();
-    return {&writer_.corners(id, placed) - static_cast<std::uint32_t>(id), first_vertex(placed),
+    const std::array<std::uint32_t, 3>* const own = &writer_.corners(id, placed);
+    const auto place = static_cast<std::uint32_t>(own - mesh.triangles.data());
+    return {mesh.triangles.data(), static_cast<std::uint32_t>(id) - place, first_vertex(placed),
             same && writer_.is_opaque(id, placed), same};
 }
 
@@ -108,8 +110,8 @@ void TableCurve::fill_triangles(std::span<const CurveLeaf> leaves, const std::ui
         if (i >= leaves.size()) return;
         const std::uint32_t* const its = indices + leaves[i].first;
         for (std::uint32_t k = 0; k < leaves[i].count; ++k) {
-            const std::uint32_t id = bounded_.id(its[k]);
-            __builtin_prefetch(view_of(PrimitiveId{id}).triangles + id);
+            const PrimitiveId id{bounded_.id(its[k])};
+            __builtin_prefetch(&view_of(id).corners(id));
         }
     };
     const auto find = [&](std::size_t i) {
@@ -121,7 +123,7 @@ void TableCurve::fill_triangles(std::span<const CurveLeaf> leaves, const std::ui
         for (; k < leaves[i].count; ++k) {
             const PrimitiveId id{bounded_.id(its[k])};
             const MeshView mesh = view_of(id);
-            const auto& corners = mesh.triangles[static_cast<std::uint32_t>(id)];
+            const auto& corners = mesh.corners(id);
             for (std::size_t c = 0; c < 3; ++c) {
                 found.corner[c][k] = mesh.first_vertex + corners[c];
                 __builtin_prefetch(&vertices_[found.corner[c][k]]);

@@ -32,9 +32,14 @@ class TableCurve final : public CurvePrimitives {
   private:
     /// A mesh of the table.
     struct MeshView {
-        const std::array<std::uint32_t, 3>* triangles;  ///< to be indexed by id
-        std::uint32_t first_vertex;
+        /// The corners of triangle `first` and those after it.
+        const std::array<std::uint32_t, 3>* triangles;
+        std::uint32_t first, first_vertex;
         bool opaque, same;  ///< opaque where all triangles are the same
+
+        [[nodiscard]] const std::array<std::uint32_t, 3>& corners(PrimitiveId id) const {
+            return triangles[static_cast<std::uint32_t>(id) - first];
+        }
     };
     [[nodiscard]] MeshView view(PrimitiveId id) const;
     [[nodiscard]] std::uint32_t first_vertex(const PlacedMesh& placed) const;
