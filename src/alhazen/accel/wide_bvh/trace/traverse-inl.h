@@ -3,12 +3,10 @@
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
 /// Differs: all slack of the slab test is in the ray's constants (`SlabRay`); the nearest child in
-/// lanes, but for one and two hit apart; the next by a jump that can be foreseen (`child_of`); two
-/// children are fetched before it is known which is nearer.
+/// lanes, but for one and two hit apart; the next by a jump that can be foreseen (`child_of`).
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
-/// stats)`, which returns true to stop, may have `void fetch(NodeRef)`, which has the first block
-/// come into the caches, and has `float s_max`, the parameter up to which hits are searched; boxes
-/// that begin exactly there are visited.
+/// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
+/// searched; boxes that begin exactly there are visited.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
@@ -83,15 +81,6 @@ HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool fo
     return node.child[slot];
 }
 
-/// Fetches the planes of a child, or the first block of a leaf.
-template <std::size_t W, class Leaf>
-HWY_INLINE void fetch_child(const WideNodeOf<W>* nodes, NodeRef child, const Leaf& leaf) {
-    if (child.is_leaf()) return leaf.fetch(child);
-    const auto* planes = reinterpret_cast<const char*>(nodes[child.index()].planes);
-    HWY_UNROLL(8)
-    for (std::size_t i = 0; i < sizeof(nodes->planes); i += 64) hwy::Prefetch(planes + i);
-}
-
 /// Visits the leaves that the ray meets, nearest first if `kOrdered`, else in the order of slots,
 /// until `leaf.visit` returns true; returns whether it did. `follows`: the ray probably
 /// takes the way of the one before it.
@@ -129,13 +118,6 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 if constexpr (kOrdered) {
                     // Nobody foresees which of two is nearer, unless rays follow each other.
                     if (rest != 0 || !follows) {
-                        if constexpr (requires { leaf.fetch(ref); }) {
-                            if (!follows) {
-                                // One is visited as soon as it is known which, the other later.
-                                fetch_child(nodes, node.child[first], leaf);
-                                fetch_child(nodes, node.child[second], leaf);
-                            }
-                        }
                         const std::size_t nearest = stack.push_but_nearest(
                             height, node, entries, met, hit, ray.near.octant);
                         ref = child_of(node, nearest, follows);
