@@ -83,7 +83,7 @@ class BatchSource {
 
   private:
     /// Number of rays to prefetch ahead.
-    static constexpr std::size_t kSoon = 6;
+    static constexpr std::size_t kSoon = 16;
 
     static bool done(const Hit&) { return false; }
     static bool done(bool occluded) { return occluded; }

@@ -111,7 +111,6 @@ class SortedStream {
 
   private:
     using Slot = StreamSlot<Query, W>;
-    static constexpr std::size_t kSlots = 24;
     /// Fewer rays wait until there are as many, so that most passes of a list end where the
     /// processor expects it.
     static constexpr std::size_t kEnough = 6;
@@ -174,8 +173,8 @@ class SortedStream {
     const PrefetchTable& prefetch_table_;
     Source& source_;
     [[no_unique_address]] Stats stats_;
-    StepLists<Slot, kSlots> lists_;
-    Slot slots_[kSlots];
+    StepLists<Slot, kBatchSlots> lists_;
+    Slot slots_[kBatchSlots];
 };
 
 /// Traces every ray of `source` through the tree.
