@@ -16,6 +16,7 @@
 #include <new>
 #include <span>
 
+#include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
@@ -83,7 +84,7 @@ class BatchSource {
 
   private:
     /// Number of rays to prefetch ahead.
-    static constexpr std::size_t kSoon = 6;
+    static constexpr std::size_t kSoon = 16;
 
     static bool done(const Hit&) { return false; }
     static bool done(bool occluded) { return occluded; }
@@ -109,7 +110,12 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
-    traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
+    if constexpr (Query::kOrdered) {
+        traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
+    } else {
+        // Rays for any hit end early: lists cost more than they gain.
+        traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
+    }
     source.finish_all(stats);
 }
 
