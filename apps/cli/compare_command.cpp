@@ -63,9 +63,7 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
         check_writable(name);
         outputs.emplace_back(name);
     }
-    if (!args.json.empty() && args.json == args.html) {
-        throw Error(ErrorKind::Usage, "--json and --html name the same file");
-    }
+    check_distinct(outputs);
     return outputs;
 }
 

@@ -48,6 +48,20 @@ const Metric& find_metric(const std::string& name) {
     throw Error(ErrorKind::Usage, fmt::format("unknown metric '{}'; known: {}", name, known));
 }
 
+/// If only one of the pictures is that of a full frame of which the file holds a part of the size
+/// of the other, keeps this part.
+void keep_common(Image& a, Image& b) {
+    const auto fits = [](const Image& whole, const Image& part) {
+        return whole.held.width == part.width && whole.held.height == part.height;
+    };
+    if (a.width == b.width && a.height == b.height) return;
+    if (fits(a, b)) {
+        a = held_part(a);
+    } else if (fits(b, a)) {
+        b = held_part(b);
+    }
+}
+
 }  // namespace
 
 void add_diff(CLI::App& app, int& exit_status) {
@@ -84,9 +98,10 @@ void add_diff(CLI::App& app, int& exit_status) {
             }
         }
         ImageLimits limits = args->limits.limits();
-        const Image a = read_image(args->a, limits);
+        Image a = read_image(args->a, limits);
         limits.max_bytes -= a.samples.size() * sizeof(float);
-        const Image b = read_image(args->b, limits);
+        Image b = read_image(args->b, limits);
+        keep_common(a, b);
         const ImageDifference d = difference(a, b);
         const double value = metric.value(d);
         const bool holds = value <= args->max;

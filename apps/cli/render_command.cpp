@@ -138,24 +138,10 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
             outputs.push_back(std::move(path));
         }
     }
-    if (!args.stats.empty() && args.stats != "-") {
-        if (std::find(outputs.begin(), outputs.end(), args.stats) != outputs.end()) {
-            throw Error(ErrorKind::Usage, "--stats and a picture name the same file");
-        }
-        outputs.emplace_back(args.stats);
-    }
-    if (!args.tables.empty()) {
-        if (std::find(outputs.begin(), outputs.end(), args.tables) != outputs.end()) {
-            throw Error(ErrorKind::Usage, "--tables and another output name the same file");
-        }
-        outputs.emplace_back(args.tables);
-    }
-    if (!args.photons.empty()) {
-        if (std::find(outputs.begin(), outputs.end(), args.photons) != outputs.end()) {
-            throw Error(ErrorKind::Usage, "--photons and another output name the same file");
-        }
-        outputs.emplace_back(args.photons);
-    }
+    if (!args.stats.empty() && args.stats != "-") outputs.emplace_back(args.stats);
+    if (!args.tables.empty()) outputs.emplace_back(args.tables);
+    if (!args.photons.empty()) outputs.emplace_back(args.photons);
+    check_distinct(outputs);
     for (const auto& path : outputs) check_writable(path);
     return outputs;
 }
@@ -270,7 +256,8 @@ int run(const RenderArguments& args) {
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded, options);
     progress.finish();
-    if (result.tiles_done == 0 && !result.complete) {
+    const bool has_rounds = result.sampling && !result.sampling->rounds.empty();
+    if (result.tiles_done == 0 && !has_rounds && !result.complete) {
         tell("stopped before a tile was done; nothing was written\n");
         return kStopped;
     }
@@ -297,7 +284,7 @@ int run(const RenderArguments& args) {
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);
-    if (!result.complete && result.sampling && !result.sampling->rounds.empty()) {
+    if (!result.complete && has_rounds) {
         tell("stopped in round {}: {} of {} tiles have its samples, the rest those before it\n",
              result.sampling->rounds.size() + 1, result.tiles_done, result.tiles);
         return kStopped;

@@ -203,11 +203,12 @@ void run_section(SectionArguments& args, int& exit_status) {
     (void)parse_size(args.size);
     if (!args.output.empty()) check_image_suffix(args.output);
     if (!args.svg.empty()) (void)section_svg({}, frame, args.svg_options);  // checks the unit
-    const LoadedScene loaded = load(args.scene.scene, args.scene.load_options());
     std::vector<std::filesystem::path> outputs;
     for (const std::string& path : {args.output, args.svg, args.json}) {
         if (!path.empty() && path != "-") outputs.emplace_back(path);
     }
+    check_distinct(outputs);
+    const LoadedScene loaded = load(args.scene.scene, args.scene.load_options());
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
     ThreadLimit(args.scene.threads).run([&] {

@@ -192,12 +192,13 @@ inline bool same(const UvTransform& a, const UvTransform& b) {
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
 }
 inline bool same(const StoredImage& a, const StoredImage& b) {
-    const auto& [a1, a2, a3, a4, a5] = a;
-    const auto& [b1, b2, b3, b4, b5] = b;
+    const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
+    (void)a7, (void)b7;
     const bool samples =
         a5.index() == b5.index() &&
         std::visit([&]<class V>(const V& v) { return same(v, std::get<V>(b.samples)); }, a5);
-    return all_same(a1, b1, a2, b2, a3, b3, a4, b4) && samples;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a6, b6) && samples;
 }
 inline bool same(const ImageTexture& a, const ImageTexture& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;

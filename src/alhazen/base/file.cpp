@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include <fcntl.h>
@@ -202,6 +203,20 @@ void check_writable(const fs::path& path) {
     if (!fs::is_directory(folder, failed)) refuse("there is no folder " + folder.string());
     if (::access(folder.c_str(), W_OK) != 0) refuse("the folder may not be written to");
     if (fs::is_directory(path, failed)) refuse("it is a folder");
+}
+
+void check_distinct(std::span<const fs::path> paths) {
+    std::map<fs::path, fs::path> name_of;
+    for (const fs::path& path : paths) {
+        std::error_code failed;
+        const fs::path target = target_of(path);
+        const fs::path whole = fs::weakly_canonical(fs::absolute(target, failed), failed);
+        if (fs::exists(whole, failed) && !fs::is_regular_file(whole, failed)) continue;
+        const auto [other, is_new] = name_of.emplace(failed ? target : whole, path);
+        if (is_new) continue;
+        throw Error(ErrorKind::Usage, "two outputs are one file: " + other->second.string() +
+                                          " and " + path.string());
+    }
 }
 
 fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,

@@ -35,6 +35,10 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
 /// writable, or it is a folder itself. For callers with long work before the write.
 void check_writable(const std::filesystem::path& path);
 
+/// Throws Error (Usage) if two of `paths` lead to one file, by whatever names and links, so that
+/// one output would replace another. Devices may be named twice.
+void check_distinct(std::span<const std::filesystem::path> paths);
+
 /// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) if it is
 /// empty, holds a NUL, or does not lie in one of the folders `roots` after all symbolic links are
 /// followed; the same holds for absolute names.

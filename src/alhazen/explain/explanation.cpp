@@ -131,8 +131,12 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
     RecursiveEstimator<NoRandomness> estimator(job, 1, counters);
     BoxFilter filter;
     for (std::size_t i = 0; i < samples.rays().size() && !job.stop_requested(); ++i) {
-        Rgb radiance = e.tree.radiance;
-        if (i != chosen) estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
+        Rgb radiance;
+        if (i == chosen) {
+            radiance = e.tree.radiance;
+        } else {
+            estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
+        }
         filter.add(radiance);
         e.samples.push_back({samples.place(i), radiance});
     }

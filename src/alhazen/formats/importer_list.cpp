@@ -96,6 +96,11 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
         throw Error(ErrorKind::Usage,
                     "view scripts are not supported by the format " + std::string(importer.name()));
     }
+    if (options.time && !importer.applies_animations()) {
+        diagnostics.warning({path.string(), 0, 0}, "a time is given, but files of the format " +
+                                                       std::string(importer.name()) +
+                                                       " have no animations");
+    }
     SceneDescription description = importer.import(source, diagnostics);
     if (!options.objects.empty() && !importer.chooses_objects()) {
         choose_objects(description, options.objects);

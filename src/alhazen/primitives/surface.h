@@ -117,9 +117,13 @@ class LeavingRays {
     /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
     static constexpr double kBeyondZero = 0x1p-500;
 
+    /// The distance of the starts from the point, along the normal.
+    [[nodiscard]] static double margin(const ShapeSurface& surface) {
+        return kErrorsAway * dot(abs(surface.normal), surface.error);
+    }
     // Implicit, so that a surface may be passed.
     LeavingRays(const ShapeSurface& surface) : normal_(surface.normal) {
-        const double margin = kErrorsAway * dot(abs(surface.normal), surface.error);
+        const double margin = LeavingRays::margin(surface);
         // The sums round by half an ulp, far less than the margin.
         outside_ = surface.point + margin * surface.normal;
         inside_ = surface.point + (-margin) * surface.normal;

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -127,6 +130,46 @@ void for_primitives(const WideBvhLayout& layout, F&& f) {
                 default:
                     FAIL();
             }
+        }
+    }
+}
+
+/// The blocks of a tree of quality fast are those of fill_block, and their boxes contain the
+/// triangles of the table.
+void expect_blocks_of_table(const PrimitiveTable& table, const std::string& name) {
+    const BoundedPrimitives bounded(table);
+    const WideBvhLayout layout = build_wide_bvh(table, bounded, {BuildQuality::Fast});
+    for (const TriangleBlock& block : layout.triangles) {
+        std::vector<PrimitiveId> ids;
+        for (const BlockId id : block.ids) {
+            if (id.used()) ids.push_back(id.id());
+        }
+        TriangleBlock expected;
+        fill_block(expected, ids, table, layout.frame);
+        ASSERT_EQ(std::memcmp(&block, &expected, sizeof(block)), 0) << name;
+    }
+    std::vector<int> seen(table.size());
+    for_primitives(layout, [&](const FloatBox& box, PrimitiveId id) {
+        ++seen[static_cast<std::uint32_t>(id)];
+        FloatBox with = box;
+        with.include(layout.frame.local(table.box(static_cast<std::uint32_t>(id))));
+        EXPECT_EQ(with, box) << name << ", " << static_cast<std::uint32_t>(id);
+    });
+    for (std::size_t i = 0; i < bounded.size(); ++i) EXPECT_EQ(seen[bounded.id(i)], 1) << name;
+}
+
+TEST(BuildReferences, BlocksOfFastTreesHoldTheTableWithinTheirBoxes) {
+    for (const double size : {1e-30, 1.0, 3e7, 1e100}) {
+        for (const double shift : {0.0, -5.0, 1e5, 1e10}) {
+            const std::string name = std::to_string(size) + " at " + std::to_string(shift);
+            PrimitiveTable table =
+                odd_table(size, {shift * size, -shift * size, 2 * shift * size}, 57);
+            expect_blocks_of_table(table, name);
+            // A vertex without a triangle.
+            TriangleMesh mesh = *table.meshes[0].mesh;
+            mesh.positions.push_back({1e300, -1e300, 1e300});
+            table.meshes[0].mesh = std::make_shared<TriangleMesh>(mesh);
+            expect_blocks_of_table(table, name);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -269,9 +270,9 @@ TEST(FlatShapes, RaysOfABatchTryTheLastOccludersBeforeTheTree) {
         WideBvhScene scene(tested.primitives(), tested.layout());
         scene.recent = &recent;
         const WideBvhKernelPair kernels = wide_bvh_kernels(8);
-        for (const Ray& ray : rays) {
-            EXPECT_TRUE(kernels.counting.occluded(scene, ray, &all)) << target;
-        }
+        bool occluded[64] = {};
+        kernels.counting.occluded_batch(scene, rays, std::span<bool>(occluded), &all);
+        for (const bool met : occluded) EXPECT_TRUE(met) << target;
         EXPECT_GT(one.node_visits, 0u);
         EXPECT_EQ(all.node_visits, one.node_visits) << target;
         EXPECT_EQ(all.primitive_hits, 64u) << target;
@@ -280,7 +281,7 @@ TEST(FlatShapes, RaysOfABatchTryTheLastOccludersBeforeTheTree) {
 
 TEST(FlatShapes, LastOccludersThatMissAreSeldomTried) {
     RecentOccluders recent;
-    EXPECT_FALSE(recent.worth_trying());
+    EXPECT_FALSE(recent.worth_trying(1));
     BoxBlock block{};
     block.ids[3] = BlockId(PrimitiveId{7}, true, false);
     block.ids[5] = BlockId(PrimitiveId{8}, true, false);
@@ -293,14 +294,57 @@ TEST(FlatShapes, LastOccludersThatMissAreSeldomTried) {
     EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{8});
     int tries = 0;
     for (int i = 0; i < 1000; ++i) {
-        if (!recent.worth_trying()) continue;
+        if (!recent.worth_trying(1)) continue;
         ++tries;
-        recent.tried(false);
+        recent.tried(1, 0);
     }
     EXPECT_GT(tries, 20);
     EXPECT_LT(tries, 60);
-    recent.tried(true);
-    EXPECT_TRUE(recent.worth_trying());
+    recent.tried(1, 1);
+    EXPECT_TRUE(recent.worth_trying(8));
+}
+
+TEST(FlatShapes, AnOccluderInUseStays) {
+    RecentOccluders recent;
+    BoxBlock block{};
+    block.ids[0] = BlockId(PrimitiveId{7}, true, false);
+    block.ids[1] = BlockId(PrimitiveId{8}, true, false);
+    recent.add(block, 0);
+    for (std::size_t i = 1; i < kBlockWidth; ++i) recent.add(block, 1);
+    recent.keep(0);
+    recent.add(block, 1);
+    EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{7});
+    for (std::size_t i = 1; i < kBlockWidth; ++i) recent.add(block, 1);
+    EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{8});
+}
+
+/// Rays of which some hit nothing, lie outside the range of float, or are occluded already.
+TEST(FlatShapes, ABatchWithLastOccludersFindsWhatSingleRaysDo) {
+    Random random(5);
+    std::vector<Polygon> gears;
+    for (int i = 0; i < 40; ++i) gears.push_back(gear(2.5 * (i % 8), 2.5 * (i / 8), i % 3));
+    std::vector<Ray> rays;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 target{random.uniform(-1, 19), random.uniform(-1, 11), random.uniform(-1, 3)};
+        const double away = random.below(50) == 0 ? 1e18 : 10;
+        Vec3 direction = random.unit_vector();
+        rays.push_back({target - away * direction, direction, 0, 2 * away});
+        if (random.below(50) == 0) rays.back().direction = {};
+    }
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const WideBvhAggregate tested(table_of<Polygon>(gears));
+        RecentOccluders recent;
+        WideBvhScene scene(tested.primitives(), tested.layout());
+        scene.recent = &recent;
+        bool occluded[1000] = {};
+        for (std::size_t i = 0; i < 1000; i += 17) occluded[i] = true;
+        wide_bvh_kernels(8).plain.occluded_batch(scene, rays, std::span<bool>(occluded), nullptr);
+        for (std::size_t i = 0; i < 1000; ++i) {
+            EXPECT_EQ(occluded[i], i % 17 == 0 || tested.occluded(rays[i], {nullptr}))
+                << target << " " << i;
+        }
+    }
 }
 
 TEST(FlatShapes, ASureRoundBodyIsNotTestedInDouble) {

@@ -193,5 +193,26 @@ TEST_F(File, LinksMustLeadIntoOneOfTheRoots) {
               ErrorKind::Scene);
 }
 
+TEST_F(File, OutputsAreDistinctByWhateverName) {
+    fs::create_directory(folder_ / "deep");
+    fs::create_symlink("out.png", folder_ / "link.png");
+    fs::create_symlink(".", folder_ / "here");
+    const fs::path out = folder_ / "out.png", other = folder_ / "out.json";
+    check_distinct(std::vector<fs::path>{out, other, folder_ / "deep/out.png"});
+    check_distinct(std::vector<fs::path>{"/dev/null", out, "/dev/null"});
+    const fs::path relative = fs::relative(out);
+    for (const bool exists : {false, true}) {
+        if (exists) write_file_atomically(out, "a picture");
+        for (const fs::path& same : {out, folder_ / "./out.png", folder_ / "deep/../out.png",
+                                     folder_ / "link.png", folder_ / "here/out.png", relative}) {
+            EXPECT_EQ(kind_of_error([&] {
+                          check_distinct(std::vector<fs::path>{other, out, same});
+                      }),
+                      ErrorKind::Usage)
+                << same << exists;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

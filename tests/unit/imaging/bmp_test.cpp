@@ -106,8 +106,12 @@ TEST(Bmp, RunLengthCodesOfFourAndEightBitsAreRead) {
               (std::vector<int>{1, 15, 1, 2, 3, 4, 5, 6}));
     // The end of the bitmap may be missing behind the last row.
     EXPECT_EQ(reds(8, 1, 1, "\x01\x05\0\0"s), (std::vector<int>{5}));
+    // Indices beyond the row, up to three, pad it.
+    EXPECT_EQ(reds(8, 2, 2, "\x04\x07\0\0\0\x05\x01\x02\x03\x04\x05\0\0\x01"s),
+              (std::vector<int>{1, 2, 7, 7}));
+    EXPECT_EQ(reds(4, 5, 1, "\x08\x12\0\x01"s), (std::vector<int>{1, 2, 1, 2, 1}));
     for (const std::string& damaged :
-         {"\x03\x05\0\x01"s, "\x01\x05"s, "\0\x04\x01\x02"s, "\0\x02\x05\0\x01\x01"s, ""s}) {
+         {"\x06\x05\0\x01"s, "\x01\x05"s, "\0\x04\x01\x02"s, "\0\x02\x05\0\x01\x01"s, ""s}) {
         EXPECT_EQ(error_of([&] { (void)reds(8, 2, 2, damaged); }), ErrorKind::Scene);
     }
 }

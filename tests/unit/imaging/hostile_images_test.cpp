@@ -1,10 +1,15 @@
 /// Damaged and hostile images: an error that names the file, no crash, no hang, bounded memory.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <random>
 
 #include <gtest/gtest.h>
+#include <jpeglib.h>
 #include <sys/resource.h>
 
 #include "alhazen/base/file.h"
@@ -53,7 +58,9 @@ bool is_bad_data(std::optional<ErrorKind> kind) {
 
 TEST(HostileImages, EveryTruncationIsAnErrorThatNamesTheFile) {
     for (const Sample& sample : samples()) {
-        for (std::size_t size = 0; size < sample.bytes.size(); size += size < 200 ? 1 : 17) {
+        // A JPEG may lack the marker of its end, of two bytes.
+        const std::size_t least = sample.bytes.size() - (sample.name == "sample.jpg" ? 2 : 0);
+        for (std::size_t size = 0; size < least; size += size < 200 ? 1 : 17) {
             try {
                 (void)decode_image(std::string_view(sample.bytes).substr(0, size), sample.name);
                 // Reached only if a truncated file decodes.
@@ -63,6 +70,61 @@ TEST(HostileImages, EveryTruncationIsAnErrorThatNamesTheFile) {
                 ASSERT_EQ(error.location().file, sample.name) << error.what();
             }
         }
+    }
+}
+
+/// A JPEG of several scans: progressive, or one for each component.
+std::string jpeg_of_scans(bool progressive) {
+    jpeg_error_mgr errors;
+    jpeg_compress_struct cinfo{};
+    cinfo.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&cinfo);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&cinfo, &bytes, &size);
+    cinfo.image_width = 40;
+    cinfo.image_height = 24;
+    cinfo.input_components = 3;
+    cinfo.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&cinfo);
+    const jpeg_scan_info scans[] = {{1, {0, 0, 0, 0}, 0, 63, 0, 0},
+                                    {1, {1, 0, 0, 0}, 0, 63, 0, 0},
+                                    {1, {2, 0, 0, 0}, 0, 63, 0, 0}};
+    if (progressive) {
+        jpeg_simple_progression(&cinfo);
+    } else {
+        cinfo.scan_info = scans;
+        cinfo.num_scans = 3;
+    }
+    jpeg_start_compress(&cinfo, TRUE);
+    std::mt19937 random(3);
+    for (int y = 0; y < 24; ++y) {
+        std::array<JSAMPLE, 120> samples;
+        for (JSAMPLE& sample : samples) sample = JSAMPLE(random());
+        JSAMPROW row = samples.data();
+        jpeg_write_scanlines(&cinfo, &row, 1);
+    }
+    jpeg_finish_compress(&cinfo);
+    jpeg_destroy_compress(&cinfo);
+    std::string result(reinterpret_cast<const char*>(bytes), size);
+    std::free(bytes);
+    return result;
+}
+
+TEST(HostileImages, JpegsThatEndBetweenScansAreErrors) {
+    for (const bool progressive : {true, false}) {
+        const std::string bytes = jpeg_of_scans(progressive);
+        const std::vector<float> whole = decode_image(bytes, "a.jpg").samples;
+        const std::string without = bytes.substr(0, bytes.size() - 2);
+        EXPECT_EQ(decode_image(without, "a.jpg").samples, whole);
+        std::size_t scans = 0;
+        for (std::size_t size = 0; size + 2 < bytes.size(); ++size) {
+            scans += bytes.compare(size, 2, "\xff\xda") == 0;
+            const std::string part = bytes.substr(0, size);
+            ASSERT_EQ(error_of([&] { (void)decode_image(part, "a.jpg"); }), ErrorKind::Scene)
+                << size << " of " << bytes.size();
+        }
+        EXPECT_GE(scans, 3u);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "alhazen/imaging/codecs/image_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -129,8 +130,10 @@ TEST(ImageIo, ExrFloatKeepsEveryBit) {
         part.channels = channels;
         part.samples.resize(std::size_t(23 * 300 * channels));
         if (channels == 4) part = testing::random_image(23, 300, 4, 0, 1, 3);
+        part.associated = channels % 2 == 0;
         const Image read = round_trip("exr", part, options);
         EXPECT_TRUE(read.linear);
+        EXPECT_EQ(read.associated, channels % 2 == 0);
         ASSERT_EQ(read.channels, channels);
         ASSERT_EQ(read.samples.size(), part.samples.size());
         EXPECT_EQ(std::memcmp(read.samples.data(), part.samples.data(),
@@ -167,10 +170,111 @@ TEST(ImageIo, ExrCropsAndMetadataAreInTheHeader) {
     EXPECT_EQ(window_of("displayWindow"), (std::array<std::int32_t, 4>{0, 0, 99, 79}));
     EXPECT_EQ(window_of("dataWindow"), (std::array<std::int32_t, 4>{10, 20, 39, 59}));
     EXPECT_NE(bytes.find(std::string("scene\0string\0\x06\0\0\0teapot", 23)), std::string::npos);
-    EXPECT_EQ(decode_image(bytes, "crop.exr").width, 30);
+    const Image read = decode_image(bytes, "crop.exr");
+    EXPECT_EQ(read.width, 100);
+    EXPECT_EQ(read.height, 80);
 
     options.crop_x0 = 71;
     EXPECT_EQ(error_of([&] { (void)encode_image("exr", image, options); }), ErrorKind::Usage);
+}
+
+/// The file of a picture with its windows, (x0, y0) to (x1, y1), replaced.
+std::string with_windows(const Image& image, const std::array<std::int32_t, 4>& data,
+                         const std::array<std::int32_t, 4>& display) {
+    std::string bytes = as_string(encode_image("exr", image, {.full_float = true}));
+    const auto replace = [&](const std::string& attribute, const auto& window) {
+        const std::string key = attribute + std::string("\0box2i\0\x10\0\0\0", 11);
+        const std::size_t at = bytes.find(key);
+        ASSERT_NE(at, std::string::npos);
+        std::memcpy(bytes.data() + at + key.size(), window.data(), 16);
+    };
+    replace("dataWindow", data);
+    replace("displayWindow", display);
+    return bytes;
+}
+
+TEST(ImageIo, AnExrHasTheSizeOfItsDisplayWindow) {
+    // Chunks of rows begin at the first row of the data window, which stays 0.
+    Image image = testing::random_image(20, 100, 4, 0.1f, 1, 5);
+    image.associated = true;
+    const auto expect_at = [&](const std::array<std::int32_t, 4>& data,
+                               const std::array<std::int32_t, 4>& display) {
+        const Image read = decode_image(with_windows(image, data, display), "a.exr");
+        ASSERT_EQ(read.width, display[2] - display[0] + 1);
+        ASSERT_EQ(read.height, display[3] - display[1] + 1);
+        for (int y = 0; y < read.height; ++y) {
+            for (int x = 0; x < read.width; ++x) {
+                const int i = x + display[0] - data[0], j = y + display[1] - data[1];
+                const bool inside = i >= 0 && i < 20 && j >= 0 && j < 100;
+                for (int k = 0; k < 4; ++k) {
+                    ASSERT_EQ(read.pixel(x, y)[k], inside ? image.pixel(i, j)[k] : 0.0f)
+                        << x << ' ' << y << ' ' << k;
+                }
+            }
+        }
+        const Image part = held_part(read);
+        EXPECT_EQ(part.width, read.held.width > 0 ? read.held.width : read.width);
+    };
+    expect_at({0, 0, 19, 99}, {0, 0, 19, 99});
+    expect_at({0, 0, 19, 99}, {-7, -3, 40, 130});
+    expect_at({0, 0, 19, 99}, {3, 5, 12, 80});    // data beyond all sides
+    expect_at({0, 0, 19, 99}, {-4, 70, 9, 120});  // beyond some
+    expect_at({0, 0, 19, 99}, {30, 0, 40, 10});   // apart
+    expect_at({-5, 0, 14, 99}, {-5, 0, 14, 99});  // both shifted
+    EXPECT_EQ(decode_image(with_windows(image, {0, 0, 19, 99}, {-1, 0, 19, 99}), "a.exr").held.x0,
+              1);
+    // The limits apply to the display window.
+    const ImageLimits limits{.max_side = 200, .max_pixels = 200 * 200};
+    const auto kind_of = [&](const std::array<std::int32_t, 4>& display) {
+        return error_of([&] {
+            (void)decode_image(with_windows(image, {0, 0, 19, 99}, display), "a.exr", limits);
+        });
+    };
+    EXPECT_EQ(kind_of({0, 0, 199, 199}), std::nullopt);
+    EXPECT_EQ(kind_of({0, 0, 200, 199}), ErrorKind::Resource);
+    EXPECT_EQ(kind_of({0, 0, 0x7FFFFFF, 0x7FFFFFF}), ErrorKind::Resource);
+    EXPECT_EQ(kind_of({5, 0, 4, 199}), ErrorKind::Scene);
+    EXPECT_EQ(kind_of({std::numeric_limits<std::int32_t>::min(), 0, 2147483647, 199}),
+              ErrorKind::Scene);
+}
+
+TEST(ImageIo, ExrColoursAreMultipliedByAlpha) {
+    Image image(2, 1, 4);
+    image.samples = {0.5f, 0.25f, 1.0f, 0.25f, 0.5f, 2.0f, 3.0f, 0.0f};
+    const std::vector<float> multiplied{0.125f, 0.0625f, 0.25f, 0.25f, 0.5f, 2.0f, 3.0f, 0.0f};
+    const Image read = round_trip("exr", image);
+    EXPECT_EQ(read.samples, multiplied);
+    EXPECT_TRUE(read.associated);
+    EXPECT_EQ(round_trip("exr", read).samples, multiplied);  // once only
+    // Pixels are straight; colours without cover stay.
+    const StoredImage texture = stored(read);
+    EXPECT_EQ(texture.pixel(0, false), (Rgba{0.5, 0.25, 1.0, 0.25}));
+    EXPECT_EQ(texture.pixel(1, false), (Rgba{0.5, 2.0, 3.0, 0.0}));
+    std::vector<double> run(8);
+    texture.read_pixels(0, 2, false, run.data());
+    EXPECT_EQ(run, (std::vector<double>{0.5, 0.25, 1.0, 0.25, 0.5, 2.0, 3.0, 0.0}));
+    // Grey with alpha, and a cover too small for the quotient.
+    Image grey(2, 1, 2);
+    grey.associated = true;
+    grey.samples = {0.25f, 0.5f, 1e10f, 1e-35f};
+    EXPECT_EQ(stored(grey).pixel(0, false), (Rgba{0.5, 0.5, 0.5, 0.5}));
+    EXPECT_EQ(stored(grey).pixel(1, false).r, double(1e10f));
+    const Image png = round_trip("png", image);
+    EXPECT_FALSE(png.associated);
+}
+
+TEST(ImageIo, JpegsMayLackTheMarkerOfTheEndAlone) {
+    const std::string bytes =
+        as_string(encode_image("jpg", testing::random_image(50, 40, 3, 0, 1, 6)));
+    ASSERT_EQ(bytes.substr(bytes.size() - 2), "\xff\xd9");
+    const std::string without = bytes.substr(0, bytes.size() - 2);
+    EXPECT_EQ(decode_image(without, "a.jpg").samples, decode_image(bytes, "a.jpg").samples);
+    EXPECT_EQ(decode_image(without + '\xff', "a.jpg").samples,
+              decode_image(bytes, "a.jpg").samples);
+    for (std::size_t cut = 4; cut < 40; ++cut) {
+        const std::string part = bytes.substr(0, bytes.size() - cut);
+        EXPECT_EQ(error_of([&] { (void)decode_image(part, "a.jpg"); }), ErrorKind::Scene) << cut;
+    }
 }
 
 TEST(ImageIo, HdrIsWithinItsStepAndReadsBackTheSame) {

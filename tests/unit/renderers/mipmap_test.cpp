@@ -14,8 +14,8 @@ using testing::SceneMaker;
 constexpr int kWidth = 96, kHeight = 64;
 
 /// Two black and two white squares that repeat for ever over the plane y = 0, seen from above it;
-/// with `mirror`, in an upright mirror that far behind, too.
-Scene checkerboard(TextureFilter filter, double mirror = 0) {
+/// with `mirror`, in an upright mirror that far behind, too; with `veil`, through half of it.
+Scene checkerboard(TextureFilter filter, double mirror = 0, bool veil = false) {
     Image image(64, 64, 1);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) image.pixel(x, y)[0] = float((x / 32 + y / 32) % 2);
@@ -33,13 +33,19 @@ Scene checkerboard(TextureFilter filter, double mirror = 0) {
         silver.reflective.color = {1, 1, 1};
         maker.add(Plane{.point = {0, 0, -mirror}, .normal = {0, 0, 1}}, maker.material(silver));
     }
+    if (veil) {
+        Material half;
+        half.alpha_mode = AlphaMode::Blend;
+        half.alpha.value = 0.5;
+        maker.add(Plane{.point = {0, 0, 4}, .normal = {0, 0, 1}}, maker.material(half));
+    }
     const double aspect = double(kWidth) / kHeight;
     maker.description().cameras[0].camera =
         look_along({0, 1, 5}, {0.3, -0.12, -1}, {0, 1, 0}, 0.8, aspect);
     return maker.compile();
 }
 
-Film render(const Scene& scene, int samples) {
+Film render(const Scene& scene, int samples, const Whitted& renderer = Whitted{}) {
     Film film(kWidth, kHeight, {0, 0, kWidth, kHeight});
     RayCounters counters;
     const Camera& camera = scene.cameras[0].camera;
@@ -47,7 +53,7 @@ Film render(const Scene& scene, int samples) {
                         .camera = camera,
                         .samples_per_pixel = samples,
                         .cone = eye_cone(camera, kHeight, samples)};
-    Whitted{}.render_tile(job, {0, 0, kWidth, kHeight}, film, counters);
+    renderer.render_tile(job, {0, 0, kWidth, kHeight}, film, counters);
     return film;
 }
 
@@ -110,6 +116,16 @@ TEST(Mipmaps, ConesGoOnThroughAMirror) {
 TEST(Mipmaps, MoreSamplesNarrowTheCones) {
     const Scene mipmapped = checkerboard(TextureFilter::Mipmapped);
     EXPECT_LT(rmse(render(mipmapped, 16), truth()), rmse(render(mipmapped, 1), truth()));
+}
+
+TEST(Mipmaps, BehindAVeilHasTheConesOfItsOwnRays) {
+    // A cone that has grown behind the veil must not be that of the next ray.
+    const Scene scene = checkerboard(TextureFilter::Mipmapped, 0, true);
+    const Film at_once = render(scene, 1, Whitted(std::size_t{kWidth * kHeight}));
+    for (const std::size_t rays : {1, 100}) {
+        EXPECT_EQ(rmse(render(scene, 1, Whitted(rays)), at_once), 0.0) << rays;
+    }
+    EXPECT_GT(rmse(at_once, render(checkerboard(TextureFilter::Mipmapped), 1)), 0.01);
 }
 
 }  // namespace

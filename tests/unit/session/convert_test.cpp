@@ -464,6 +464,26 @@ TEST(ConvertMeshes, StrictRefusesLosses) {
     (void)convert(scene, folder.path() / "out.alhazen", {.strict = true});
 }
 
+TEST(ConvertMeshes, TangentsOfAPlyAreKeptOrTold) {
+    const ScratchFolder folder;
+    TriangleMesh mesh = testing::tetrahedron();
+    mesh.generate_normals();
+    mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
+    SceneMaker maker;
+    (void)maker.material({.name = "paint"});
+    maker.add(maker.mesh(mesh), {}, Affine::translate({1, 0, 0}));
+    const auto path = folder.path() / "out.ply";
+    EXPECT_TRUE(losses_of(convert(maker.description(), path, {.strict = true})).empty());
+    Diagnostics found;
+    EXPECT_EQ(load_description(path, {}, found).meshes.at(0).mesh->tangents, mesh.tangents);
+    maker.add(maker.mesh(testing::tetrahedron()));
+    const std::vector<std::string> losses = losses_of(convert(maker.description(), path));
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_NE(losses[0].find("those of 1 mesh are left out"), std::string::npos) << losses[0];
+    (void)message_of(maker.description(), path, ErrorKind::Scene, {.strict = true});
+    EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "out.stl")).empty());
+}
+
 TEST(ConvertMeshes, KindsOfShapesHaveProperPlurals) {
     SceneMaker maker;
     for (int i = 0; i < 2; ++i) {

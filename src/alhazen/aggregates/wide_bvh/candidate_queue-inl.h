@@ -19,6 +19,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -79,24 +80,41 @@ class AnyBlock {
 
 /// What the filter of a block found, until the next turn of its ray.
 struct FilteredLater {
-    FilteredShapes found;
+    union {
+        FilteredShapes found;
+        FilteredTriangles triangles;
+    };
+
+    // Not defaulted: what was found is not set.
+    HWY_INLINE FilteredLater() {}
 
     template <class Block>
     HWY_INLINE void set(const Block& block, std::uint32_t rest) {
         block_ = AnyBlock(block);
+        triangle_block_ = nullptr;
         rest_ = rest;
     }
-    /// Calls `visit(block, found, rest)` if any shape passed the filter, and forgets it.
-    template <class Visit>
-    HWY_INLINE bool settle(Visit&& visit) {
+    /// `triangles` has been set.
+    HWY_INLINE void set(const TriangleBlock& block) {
+        triangle_block_ = &block;
+        rest_ = triangles.candidates;
+    }
+    /// Whether anything passed the filter.
+    [[nodiscard]] HWY_INLINE bool waits() const { return rest_ != 0; }
+    /// Calls `visit(block, found, rest)` or `visit_triangles(block, triangles)` if anything passed
+    /// the filter, and forgets it.
+    template <class Visit, class VisitTriangles>
+    HWY_INLINE bool settle(Visit&& visit, VisitTriangles&& visit_triangles) {
         if (rest_ == 0) return false;
         const std::uint32_t rest = std::exchange(rest_, 0);
+        if (triangle_block_ != nullptr) return visit_triangles(*triangle_block_, triangles);
         return block_.with([&](const auto& block) HWY_ATTR { return visit(block, found, rest); });
     }
 
   private:
     AnyBlock block_;
-    std::uint32_t rest_ = 0;  ///< bits of the lanes that passed
+    const TriangleBlock* triangle_block_;  ///< null: shapes
+    std::uint32_t rest_ = 0;               ///< bits of the lanes that passed
 };
 
 /// Shapes that wait for their test in double: what one ray, or rays of a packet, may hit, though

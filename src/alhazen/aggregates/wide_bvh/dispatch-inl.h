@@ -12,9 +12,11 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <span>
 
+#include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
@@ -82,7 +84,7 @@ class BatchSource {
 
   private:
     /// Number of rays to prefetch ahead.
-    static constexpr std::size_t kSoon = 6;
+    static constexpr std::size_t kSoon = 16;
 
     static bool done(const Hit&) { return false; }
     static bool done(bool occluded) { return occluded; }
@@ -108,8 +110,80 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
-    traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
+    if constexpr (Query::kOrdered) {
+        traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
+    } else {
+        // Rays for any hit end early: lists cost more than they gain.
+        traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
+    }
     source.finish_all(stats);
+}
+
+/// The filter of the last occluders for several rays, two of them at a time. Nothing branches on
+/// what it finds.
+template <class Query>
+HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std::size_t count,
+                              FilteredShapes* found) {
+    constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
+    const auto in_float = [](const Query& query) HWY_ATTR {
+        return query.filter.edge_slack < std::numeric_limits<float>::infinity();
+    };
+    const auto at = [&](std::size_t i) HWY_ATTR {
+        const Query& query = *queries[i];
+        return RayAtBlock<BoxBlock>{block, query.filter, query.slabs.s_min, query.slabs.s_max,
+                                    found[i]};
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (kPairs && i + 1 < count && in_float(*queries[i]) && in_float(*queries[i + 1])) {
+            (void)shape_candidates(at(i), at(i + 1));
+            ++i;
+            continue;
+        }
+        const RayAtBlock<BoxBlock> one = at(i);
+        (void)shape_candidates<true>(block, one.ray, one.s_min, one.s_max, found[i]);
+    }
+}
+
+/// Rays one by one, each against the flat shapes that occluded the last ones first
+/// (`scene.recent`).
+template <class Query, std::size_t W, class Stats>
+HWY_INLINE void run_singly(const WideBvhScene& scene, std::span<const Ray> rays,
+                           std::span<bool> results, Stats stats) {
+    constexpr std::size_t kTogether = RecentOccluders::kTogether;
+    RecentOccluders& recent = *scene.recent;
+    alignas(64) std::byte places[kTogether][(sizeof(Query) + 63) / 64 * 64];
+    FilteredShapes found[kTogether];
+    for (std::size_t first = 0, end = 0; first < rays.size(); first = end) {
+        Query* queries[kTogether];
+        bool follows[kTogether];
+        std::size_t count = 0;
+        end = std::min(first + (recent.empty() ? 1 : kTogether), rays.size());
+        for (std::size_t i = first; i < end; ++i) {
+            if (results[i]) continue;
+            follows[count] = begins_near_last(scene.layout->frame, rays[i]);
+            queries[count] = new (places[count]) Query(scene, rays[i], results[i]);
+            count += queries[count]->valid;
+        }
+        if (count == 0) continue;
+        const auto tried = static_cast<std::uint32_t>(count);
+        if (recent.worth_trying(tried)) {
+            filter_recent(recent.block(), queries, count, found);
+            std::size_t left = 0;
+            for (std::size_t n = 0; n < count; ++n) {
+                const bool hit = queries[n]->take_recent(recent, found[n], stats);
+                queries[left] = queries[n];
+                follows[left] = follows[n];
+                left += !hit;
+            }
+            recent.tried(tried, tried - static_cast<std::uint32_t>(left));
+            count = left;
+        }
+        for (std::size_t n = 0; n < count; ++n) {
+            Query& query = *queries[n];
+            run<W>(query, follows[n], stats);
+            if (query.sure_block != nullptr) recent.add(*query.sure_block, query.sure_lane);
+        }
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -59,7 +59,10 @@ HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[
         p[i] = exact::sheared<double>(corner[i][0], corner[i][1], corner[i][2], ox, oy, oz, sx, sy);
     }
     const exact::TriangleEdges<double> edges(p[0], p[1], p[2]);
-    if (!edges.nonzero()) return edges.missed() ? Verdict::Missed : Verdict::Unsure;
+    // edges.nonzero() as one comparison: nobody foresees which side of the triangle is seen.
+    if (!(exact::max_lanes(edges.least, -edges.most) > 0.0)) {
+        return edges.missed() ? Verdict::Missed : Verdict::Unsure;
+    }
     if (!edges.well_conditioned()) return Verdict::Unsure;
     const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
     if (!ray.covers(s.t)) return Verdict::Missed;
@@ -93,6 +96,14 @@ HWY_INLINE void expect_shape(const WideBvhScene& scene, const FrustumBlock& bloc
     hwy::Prefetch(&cylinder.frustum.center);
     hwy::Prefetch(&cylinder.frustum.x_axis);
     hwy::Prefetch(&cylinder.frustum.bounding_radius_squared);
+}
+HWY_INLINE void expect_shape(const WideBvhScene& scene, const BoxBlock& block, std::size_t lane) {
+    const PrimitiveId id = block.ids[lane].id();
+    if (!is_bare<Polygon>(*scene.table, id)) return;
+    const Polygon& polygon = shape_of<Polygon>(*scene.table, id);
+    hwy::Prefetch(&polygon);
+    hwy::Prefetch(&polygon.normal);
+    hwy::Prefetch(&polygon.cells);
 }
 
 struct SphereCrossings {

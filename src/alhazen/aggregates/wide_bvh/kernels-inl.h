@@ -39,14 +39,7 @@ struct Kernels {
         bool result = false;
         const bool follows = begins_near_last(scene.layout->frame, ray);
         Occluded query(scene, ray, result);
-        if (scene.recent != nullptr && query.valid &&
-            query.visit_recent(*scene.recent, policy(stats))) {
-            return true;
-        }
         run<W>(query, follows, policy(stats));
-        if (scene.recent != nullptr && query.sure_block != nullptr) {
-            scene.recent->add(*query.sure_block, query.sure_lane);
-        }
         return result;
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
@@ -63,6 +56,9 @@ struct Kernels {
     }
     static void occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                                std::span<bool> occluded, TraversalStats* stats) {
+        if (scene.recent != nullptr) {
+            return run_singly<Occluded, W>(scene, rays, occluded, policy(stats));
+        }
         run_batch<Occluded, W>(scene, rays, occluded, policy(stats));
     }
     /// Rays in no packet are traced one by one if they are few or the tree is small.

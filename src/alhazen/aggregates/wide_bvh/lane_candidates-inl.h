@@ -45,9 +45,9 @@ class LaneCandidates {
     [[nodiscard]] HWY_INLINE bool add(TrianglePlace place, std::uint32_t candidates,
                                       const PacketFloats& begin, const PacketFloats& s_max) {
         const PacketFloats lo = load_row(lo_), none(kNone);
-        // A NaN goes to the list, where it is never replaced.
-        const PacketMask keep = lanes_of_bits<float, kPacketLanes>(candidates) & (begin < none) &
-                                ((lo > s_max) | (lo >= none));
+        // A NaN goes to the list, where it is never replaced. Every s_max is less than kNone.
+        const PacketMask keep =
+            lanes_of_bits<float, kPacketLanes>(candidates) & (begin < none) & (lo > s_max);
         const std::uint32_t rest = candidates & ~bits_of(keep);
         if (HWY_UNLIKELY(rest != 0)) {
             if (overflow_count_ == kMaxOverflow) return false;

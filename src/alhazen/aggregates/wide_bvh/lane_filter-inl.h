@@ -86,15 +86,13 @@ HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const
 }
 
 /// Bits of the rays of `lanes` whose range overlaps the part of the ray that a filter left.
-HWY_INLINE std::uint32_t reaching(const Chord<PacketFloats>& chord, const LanePacket& packet,
+HWY_INLINE std::uint32_t reaching(const Chord<PacketFloats>& parameters, const LanePacket& packet,
                                   std::uint32_t lanes) {
     using F = PacketFloats;
-    const F sz = load_row(packet.reciprocal[packet.kz]);
-    const F a = chord.first * sz, b = chord.last * sz;
-    const F slack = F(packet.place_error) * abs(sz);
-    return lanes & ~bits_of((chord.first > chord.last) |
-                            (min_lanes(a, b) - slack > load_row(packet.s_max)) |
-                            (max_lanes(a, b) + slack < load_row(packet.s_min)));
+    const F slack = F(packet.place_error) * abs(load_row(packet.reciprocal[packet.kz]));
+    return lanes & ~bits_of((parameters.first > parameters.last) |
+                            (parameters.first - slack > load_row(packet.s_max)) |
+                            (parameters.last + slack < load_row(packet.s_min)));
 }
 
 /// The i-th of three rows of a block, for all rays, along their axes.
@@ -116,8 +114,7 @@ HWY_INLINE AxisRows<PacketFloats> slopes_of(const LanePacket& packet) {
 HWY_INLINE SureRange<PacketFloats> sure_range(const LanePacket& packet) {
     using F = PacketFloats;
     const F sz = load_row(packet.reciprocal[packet.kz]);
-    return {sz, F(packet.place_error) * abs(sz), load_row(packet.sure_min),
-            load_row(packet.sure_max)};
+    return {F(packet.place_error) * abs(sz), load_row(packet.sure_min), load_row(packet.sure_max)};
 }
 
 /// Bits of the rays of `lanes` that may hit a shape: shape_candidates with rays in the lanes. If
@@ -128,7 +125,8 @@ HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
                                       std::uint32_t& sure) {
     using F = PacketFloats;
     const float slack = kRoundSlack * packet.edge_slack;
-    const RoundLine<F> line(from_center(block.center, i, packet), slopes_of(packet));
+    const RoundLine<F> line(from_center(block.center, i, packet), slopes_of(packet),
+                            load_row(packet.reciprocal[packet.kz]));
     std::uint32_t missed;
     const Chord<F> chord = line.chord(F(block.radius[i] + slack), missed);
     lanes &= ~missed;
@@ -137,8 +135,8 @@ HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
     lanes = reaching(chord, packet, lanes);
     if (!kSure || lanes == 0) return lanes;
     F hi;
-    sure = lanes & bits_of(line.sure(chord, F(block.radius[i] - 2.0f * slack), whole_line<F>(),
-                                     sure_range(packet), hi));
+    sure = lanes &
+           bits_of(line.sure(chord, F(block.radius[i] - 2.0f * slack), sure_range(packet), hi));
     return lanes;
 }
 template <bool kSure>
@@ -147,16 +145,16 @@ HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
                                       std::uint32_t& sure) {
     using F = PacketFloats;
     const float slack = kRoundSlack * packet.edge_slack;
+    const F unit = load_row(packet.reciprocal[packet.kz]);
     const CylinderLine<F> line(from_center(block.center, i, packet), slopes_of(packet),
-                               for_rays(block.axis, i, packet));
+                               for_rays(block.axis, i, packet), unit);
     std::uint32_t missed;
     const Chord<F> side = line.round.chord(F(block.radius[i] + slack), missed);
     lanes &= ~missed;
     sure = 0;
     if (lanes == 0) return 0;
-    const SlabLine<F> slab = line_in_slab(line.along, line.climb);
-    Chord<F> chord = side;
-    clip_to_slab(slab, F(block.half_height[i] + slack), chord);
+    const SlabLine<F> slab = line_in_slab(line.along, line.climb, unit);
+    const Chord<F> chord = common_part(side, chord_in_slab(slab, F(block.half_height[i] + slack)));
     lanes = reaching(chord, packet, lanes);
     if (!kSure || lanes == 0 || (block.certain >> i & 1) == 0) return lanes;
     F hi;
@@ -176,14 +174,20 @@ HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
     const F half[3] = {F(block.half[0][i] + slack), F(block.half[1][i] + slack),
                        F(block.half[2][i] + slack)};
     const BoxLine<F> line(from_center(block.center, i, packet), slopes_of(packet), direction);
-    lanes = reaching(line.chord(half, F(block.inset[i])), packet, lanes);
+    const Chord<F> chord = line.chord(half, F(block.inset[i]));
+    const F unit = load_row(packet.reciprocal[packet.kz]);
+    const F a = chord.first * unit, b = chord.last * unit;
+    lanes &= ~bits_of(chord.first > chord.last);
+    const Chord<F> parameters{min_lanes(a, b), max_lanes(a, b)};
+    lanes = reaching(parameters, packet, lanes);
     sure = 0;
     if (lanes == 0 || !(block.inset[i] < BoxBlock::kNotFlat)) return lanes;
     const F off = line.off_axis(), spread = line.spread(half[2]), inset(block.inset[i]);
     lanes &= ~bits_of(outside_ball(off, spread, F(block.radius[i] + 2.0f * slack), inset));
     if (!kSure || lanes == 0 || !(block.inset[i] < BoxBlock::kNoInset)) return lanes;
     F hi;
-    sure = lanes & bits_of(line.sure(half, inset, F(slack), off, spread, sure_range(packet), hi));
+    sure = lanes & bits_of(line.sure(half, inset, F(slack), off, spread, parameters,
+                                     sure_range(packet), hi));
     return lanes;
 }
 

@@ -15,7 +15,8 @@
 ///   which rounds no more; that of the sum of the three is off by less than four times as much. If
 ///   an edge function is negative for all rays and the sum positive, or the other way round, signs
 ///   are mixed and no ray hits.
-/// - a hit is within 1.6 E' of the depths of the corners.
+/// - a hit is within 1.6 E' of the depths of the corners. These are its interval, without the
+///   division by the sum of the edge functions, where they differ by less than a 64th of the least.
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes and is never sure.
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -42,8 +43,10 @@ struct PinholeTriangles {
     HWY_ALIGN float first[kBlockWidth], last[kBlockWidth];  ///< of z
     HWY_ALIGN float spread[kBlockWidth];  ///< by how much the weights' errors move a place, times
                                           ///< their sum
-    HWY_ALIGN float place_error[kBlockWidth];  ///< beside that
-    std::uint32_t met;                         ///< bits of those that rays may hit
+    HWY_ALIGN float place_error[kBlockWidth];              ///< beside that
+    HWY_ALIGN float begin[kBlockWidth], end[kBlockWidth];  ///< of the magnitudes of places
+    std::uint32_t met;                                     ///< bits of those that rays may hit
+    bool flat;  ///< begin and end of these are close together, and in the range of all rays
 
     HWY_INLINE PinholeTriangles(const TriangleBlock& block, const LanePacket& packet) {
         const LanePacket::Pinhole& pinhole = packet.pinhole;
@@ -53,7 +56,6 @@ struct PinholeTriangles {
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
             p[i][2] = load_lanes(block.vertex[i][axes[2]]) - Floats(pinhole.origin[2]);
-            store_lanes(p[i][2], z[i]);
             HWY_UNROLL(2)
             for (std::size_t k = 0; k < 2; ++k) {
                 p[i][k] =
@@ -94,17 +96,28 @@ struct PinholeTriangles {
         const Floats slack = off * mul_add(across, Floats(5.6f), off * Floats(2.2f));
         const Floats aside = off * Floats(1.6f);
         store_lanes(slack, error);
-        store_lanes(aside, place_error);
-        store_lanes(lowest, first);
-        store_lanes(highest, last);
-        store_lanes(Floats(25.0f) * slack * (highest - lowest), spread);
         const bool up = packet.near_row[packet.kz] == packet.kz;
         const Floats beside(1.6f * pinhole.most_off);
-        const Floats front = (up ? lowest : -highest) - beside, back = (up ? highest : -lowest);
+        const Floats near = up ? lowest : -highest, back = up ? highest : -lowest;
+        const Floats front = near - beside;
+        const Floats begins = near - aside, ends = back + aside;
+        store_lanes(begins, begin);
+        store_lanes(ends, end);
+        const std::uint32_t plain =
+            bits_of(((back - near) * Floats(64.0f) <= near) &
+                    (begins * Floats(pinhole.least_step) >= Floats(pinhole.sure_min)) &
+                    (ends * Floats(pinhole.most_step) <= Floats(pinhole.sure_max)));
         missed = missed | (back < -beside) |
                  (front * Floats(pinhole.least_step) > Floats(packet.deepest()));
         missed = missed | find_edges(p, wide, slack);
         met = kAllLanes & ~bits_of(missed);
+        flat = (met & ~plain) == 0;
+        if (flat) return;
+        for (std::size_t i = 0; i < 3; ++i) store_lanes(p[i][2], z[i]);
+        store_lanes(aside, place_error);
+        store_lanes(lowest, first);
+        store_lanes(highest, last);
+        store_lanes(Floats(25.0f) * slack * (highest - lowest), spread);
     }
 
   private:
@@ -152,6 +165,16 @@ HWY_INLINE bool filter_lanes(const PinholeTriangles& seen, std::size_t lane,
     const std::uint32_t passed = lanes & ~bits_of((least < minus_error) & (most > error));
     if (passed == 0) return false;
     const F sz = load_row(packet.reciprocal[packet.kz]);
+    const auto one_sign = [&]() HWY_ATTR { return (least > error) | (most < minus_error); };
+    // Written so that a NaN is a candidate and not sure.
+    if (seen.flat) {
+        out.lo = abs(sz) * F(seen.begin[lane]);
+        out.hi = abs(sz) * F(seen.end[lane]);
+        out.candidates = passed & ~bits_of(out.lo > load_row(packet.s_max));
+        if (out.candidates == 0) return false;
+        out.sure = out.candidates & bits_of(one_sign());
+        return true;
+    }
     const F inverse = F(1.0f) / (eu + ev + ew);
     const F place =
         mul_add(eu, F(seen.z[0][lane]), mul_add(ev, F(seen.z[1][lane]), ew * F(seen.z[2][lane]))) *
@@ -161,12 +184,10 @@ HWY_INLINE bool filter_lanes(const PinholeTriangles& seen, std::size_t lane,
         abs(sz) * mul_add(F(seen.spread[lane]), abs(inverse), F(seen.place_error[lane]));
     out.lo = s - slack;
     out.hi = s + slack;
-    // Written so that a NaN is a candidate and not sure.
     out.candidates =
         passed & ~bits_of((out.lo > load_row(packet.s_max)) | (out.hi < load_row(packet.s_min)));
     if (out.candidates == 0) return false;
-    out.sure = out.candidates & bits_of(((least > error) | (most < minus_error)) &
-                                        (out.lo >= load_row(packet.sure_min)) &
+    out.sure = out.candidates & bits_of(one_sign() & (out.lo >= load_row(packet.sure_min)) &
                                         (out.hi <= load_row(packet.sure_max)));
     return true;
 }

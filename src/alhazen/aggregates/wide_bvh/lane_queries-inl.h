@@ -82,6 +82,10 @@ class LaneLeaves : public LaneShapes<Derived> {
                 continue;
             }
             LoneRay<Derived> ray(scene_, packet_, i, derived());
+            if (ref.is_leaf()) {
+                if (!ray.visit(ref, stats)) ray.finish(stats);
+                continue;
+            }
             if (!traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
                                              false, ray, stats)) {
                 ray.finish(stats);
@@ -535,11 +539,13 @@ HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& 
     if (rest == 0) return alone;
     Leaves leaves(batch.scene, batch.scene.waits ? &batch.prefetch_table : nullptr, rays, results,
                   packet);
+    const bool waits = batch.scene.waits;
+    const int least = Leaves::kOrdered && !waits ? kMinClosestLanes : kMinPacketLanes;
     while (rest != 0) {
         const std::uint32_t set = packet.choose_set(rest);
         rest &= ~set;
-        traverse_lanes(tree.nodes.data(), tree.root, batch.prefetch_table, packet, set,
-                       kMinPacketLanes, leaves, stats);
+        traverse_lanes(tree.nodes.data(), tree.root, batch.prefetch_table, packet, set, least,
+                       leaves, stats);
         // While the axes are those of the set.
         if (leaves.any_alone()) leaves.trace_alone(stats);
         leaves.finish(stats);

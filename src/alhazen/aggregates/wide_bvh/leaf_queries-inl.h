@@ -93,7 +93,7 @@ struct LeafQuery {
         const std::uint32_t count = ref.count();
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles:
-                return visit(ref, stats);
+                return filter_last_triangles(ref, stats);
             case LeafType::Spheres:
                 return filter_last(&scene.layout->spheres[ref.offset()], count, stats);
             case LeafType::Frustums:
@@ -106,8 +106,17 @@ struct LeafQuery {
     template <class Stats>
     HWY_INLINE bool settle(Stats stats) {
         return later_.settle([&](const auto& block, const FilteredShapes& found, std::uint32_t rest)
-                                 HWY_ATTR { return visit_found(block, found, rest, stats); });
+                                 HWY_ATTR { return visit_found(block, found, rest, stats); },
+                             [&](const TriangleBlock& block, const FilteredTriangles& found)
+                                 HWY_ATTR {
+                                     if constexpr (defers_triangles()) {
+                                         return query().triangles(block, found, stats);
+                                     }
+                                     return false;
+                                 });
     }
+    /// Whether `settle` has anything to do.
+    [[nodiscard]] HWY_INLINE bool waits() const { return later_.waits(); }
 
     /// Computed only for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
@@ -152,6 +161,10 @@ struct LeafQuery {
     }
 
   private:
+    /// Whether a block of triangles is settled in the next turn. A ray for any hit ends at most of
+    /// what the filter finds.
+    static constexpr bool defers_triangles() { return Test::kExact && Query::kOrdered; }
+
     FilteredLater later_;
 
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
@@ -182,6 +195,25 @@ struct LeafQuery {
             if (query().accept(block.ids[lane], hit)) return true;
         }
         return false;
+    }
+
+    /// As filter_last, for triangles.
+    template <class Stats>
+    HWY_INLINE bool filter_last_triangles(NodeRef ref, Stats stats) {
+        if constexpr (defers_triangles()) {
+            if (HWY_UNLIKELY(blocks == nullptr)) return visit_indices(ref, stats);
+            const TriangleBlock* block = blocks + ref.offset();
+            for (const TriangleBlock* last = block + (ref.count() - 1); block < last; ++block) {
+                stats.primitives(used_lanes(*block));
+                if (visit_block(*block, stats)) return true;
+            }
+            stats.primitives(used_lanes(*block));
+            (void)filter_triangles<true>(*block, filter, slabs.s_min, s_max, later_.triangles);
+            later_.set(*block);
+            return false;
+        } else {
+            return visit(ref, stats);
+        }
     }
 
     template <class Block, class Stats>
@@ -492,18 +524,17 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
         }
         return false;
     }
-    /// Whether a flat shape that occluded a ray of the batch before certainly does.
+    /// Whether a flat shape that occluded a ray of the batch before certainly does. `found`: what
+    /// the filter of their block finds.
     template <class Stats>
-    HWY_INLINE bool visit_recent(RecentOccluders& recent, Stats stats) {
-        if (!recent.worth_trying()) return false;
-        const BoxBlock& block = recent.block();
-        FilteredShapes found;
-        const std::uint32_t rest = shape_candidates<false>(block, this->filter, this->slabs.s_min,
-                                                           this->slabs.s_max, found);
-        const bool hit = rest != 0 && take_sure(block, found, stats);
-        if (!hit) stats.primitives(used_lanes(block));
-        recent.tried(hit);
-        return hit;
+    HWY_INLINE bool take_recent(RecentOccluders& recent, const FilteredShapes& found,
+                                Stats stats) {
+        if (take_sure(recent.block(), found, stats)) {
+            recent.keep(sure_lane);
+            return true;
+        }
+        stats.primitives(used_lanes(recent.block()));
+        return false;
     }
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {

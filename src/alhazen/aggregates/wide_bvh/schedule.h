@@ -30,6 +30,8 @@ inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 /// Smallest number of rays of a lane packet (lane_queries-inl.h) in a subtree; fewer continue one
 /// by one.
 inline constexpr int kMinPacketLanes = 3;
+/// The same for closest hits in trees whose rays do not wait for memory.
+inline constexpr int kMinClosestLanes = 2;
 /// Largest number of registers of sixteen floats for which lane packets trace closest hits. With
 /// more, frustum packets are faster; any-hit queries always use lane packets.
 inline constexpr std::size_t kMostLaneRegisters = 2;

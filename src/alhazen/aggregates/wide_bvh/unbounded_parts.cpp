@@ -17,4 +17,25 @@ UnboundedParts::UnboundedParts(const PrimitiveTable& table, std::span<const Prim
     }
 }
 
+void UnboundedParts::closest_of_some(const PrimitiveTable& table, const Ray& ray, Hit& best,
+                                     RayQuery query) const {
+    Ray shrinking = ray;
+    meet(table, shrinking, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+        if (hit != nullptr) {
+            offer_hit(*hit, id, shrinking, best);
+        } else {
+            table.closest(id, shrinking, shear_of(table, id, ray), best, stats, query.mask);
+        }
+        return false;
+    });
+}
+
+bool UnboundedParts::occluded_by_some(const PrimitiveTable& table, const Ray& ray,
+                                      RayQuery query) const {
+    return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+        return hit != nullptr ||
+               table.occluded(id, ray, shear_of(table, id, ray), stats, query.mask);
+    });
+}
+
 }  // namespace alhazen

@@ -25,23 +25,12 @@ class UnboundedParts {
 
     /// As PrimitiveTable::closest for each primitive.
     void closest(const PrimitiveTable& table, const Ray& ray, Hit& best, RayQuery query) const {
-        if (parts_.empty()) return;
-        Ray shrinking = ray;
-        meet(table, shrinking, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
-            if (hit != nullptr) {
-                offer_hit(*hit, id, shrinking, best);
-            } else {
-                table.closest(id, shrinking, shear_of(table, id, ray), best, stats, query.mask);
-            }
-            return false;
-        });
+        if (!parts_.empty()) [[unlikely]] {
+            closest_of_some(table, ray, best, query);
+        }
     }
     [[nodiscard]] bool occluded(const PrimitiveTable& table, const Ray& ray, RayQuery query) const {
-        if (parts_.empty()) return false;
-        return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
-            return hit != nullptr ||
-                   table.occluded(id, ray, shear_of(table, id, ray), stats, query.mask);
-        });
+        return !parts_.empty() && occluded_by_some(table, ray, query);
     }
     void all_hits(const PrimitiveTable& table, const Ray& ray, std::vector<Hit>& hits,
                   RayQuery query) const {
@@ -71,6 +60,13 @@ class UnboundedParts {
     }
 
   private:
+    // Not inline: most scenes have no unbounded primitives, and every ray would pay for the room
+    // that these take on the stack.
+    [[gnu::noinline]] void closest_of_some(const PrimitiveTable& table, const Ray& ray, Hit& best,
+                                           RayQuery query) const;
+    [[nodiscard, gnu::noinline]] bool occluded_by_some(const PrimitiveTable& table, const Ray& ray,
+                                                       RayQuery query) const;
+
     /// The shear is needed for triangles beyond BoundedPrimitives::kReach.
     [[nodiscard]] static RayShear shear_of(const PrimitiveTable& table, PrimitiveId id,
                                            const Ray& ray) {

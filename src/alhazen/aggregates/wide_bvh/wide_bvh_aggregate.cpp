@@ -208,8 +208,11 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single: {
-            RecentOccluders recent;
-            if (!layout_.others.empty()) seen.recent = &recent;
+            if (!layout_.others.empty()) {
+                RecentOccluders recent;
+                seen.recent = &recent;
+                return kernels.occluded_batch(seen, rays, occluded, query.stats);
+            }
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (!occluded[i]) occluded[i] = kernels.occluded(seen, rays[i], query.stats);
             }

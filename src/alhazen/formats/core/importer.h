@@ -62,6 +62,8 @@ class Importer {
     [[nodiscard]] virtual bool chooses_objects() const { return false; }
     /// True if the format supports `ImportOptions::view_script`.
     [[nodiscard]] virtual bool reads_view_scripts() const { return false; }
+    /// True if files may have animations, of which `ImportOptions::time` is a moment.
+    [[nodiscard]] virtual bool applies_animations() const { return false; }
     /// Imports all readable content. Findings go to `diagnostics`; the result is valid only without
     /// errors. Throws Error only for limits (Resource) and unreadable files.
     [[nodiscard]] virtual SceneDescription import(const ImportSource& source,

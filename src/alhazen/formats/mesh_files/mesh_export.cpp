@@ -1,5 +1,6 @@
 #include "alhazen/formats/mesh_files/mesh_export.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -7,6 +8,7 @@
 
 #include "alhazen/formats/mesh_files/mesh_export_text.h"
 #include "alhazen/imaging/image/encoding.h"
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
 
@@ -34,7 +36,14 @@ Vec3 placed_normal(const Mat3& mesh_from_file, const Vec3& normal) {
 
 struct Arrays {
     bool normals = false, uvs = false, uvs2 = false, colors = false;
+    bool tangents = false;  ///< of all meshes
 };
+
+VertexTangent placed_tangent(const Affine& placement, bool mirrored, const VertexTangent& t) {
+    if (placement.linear == Mat3{}) return t;
+    const Vec3 placed = unit_or(placement.linear * Vec3{t.x, t.y, t.z}, {});
+    return {float(placed.x), float(placed.y), float(placed.z), mirrored ? -t.sign : t.sign};
+}
 
 /// Adds one vertex of a placed mesh.
 void add_vertex(const NamedMesh& from, const Mat3& mesh_from_file, std::uint32_t i,
@@ -48,6 +57,10 @@ void add_vertex(const NamedMesh& from, const Mat3& mesh_from_file, std::uint32_t
     if (arrays.uvs) out.uvs.push_back(mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
     if (arrays.uvs2) out.uvs2.push_back(mesh.uvs2.empty() ? Vec2{} : mesh.uvs2[i]);
     if (arrays.colors) out.colors.push_back(mesh.colors.empty() ? VertexColor{} : mesh.colors[i]);
+    if (arrays.tangents) {
+        out.tangents.push_back(
+            placed_tangent(from.placement, mirrors(from.placement), mesh.tangents[i]));
+    }
 }
 
 void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
@@ -184,6 +197,7 @@ std::string ply_bytes(std::span<const NamedMesh> meshes) {
         arrays.uvs2 = arrays.uvs2 || !from.mesh->uvs2.empty();
         arrays.colors = arrays.colors || !from.mesh->colors.empty();
     }
+    arrays.tangents = meshes_without_tangents(meshes) == 0;
     for (const NamedMesh& from : meshes) {
         const bool split = arrays.normals && from.mesh->normals.empty();
         vertices += split ? 3 * from.mesh->triangles.size() : from.mesh->positions.size();
@@ -205,6 +219,12 @@ std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtlli
     ObjOffsets offsets;
     for (const NamedMesh& from : meshes) append_object(from, offsets, out);
     return out;
+}
+
+std::uint64_t meshes_without_tangents(std::span<const NamedMesh> meshes) {
+    return std::uint64_t(std::count_if(meshes.begin(), meshes.end(), [](const NamedMesh& from) {
+        return from.mesh->tangents.empty();
+    }));
 }
 
 std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes) {

@@ -33,14 +33,15 @@ struct NamedMesh {
 /// A single mesh, unchanged; read_ply returns every array bit for bit.
 [[nodiscard]] std::string ply_bytes(const TriangleMesh& mesh);
 /// All meshes merged. Arrays that only some meshes have are filled with defaults: white, face
-/// normals, zero texture coordinates. Tangents and vertex materials are omitted. Throws Error
-/// (Resource) beyond 2^32 - 1 vertices.
+/// normals, zero texture coordinates. Tangents are kept if every mesh has them. Vertex materials
+/// are omitted. Throws Error (Resource) beyond 2^32 - 1 vertices.
 [[nodiscard]] std::string ply_bytes(std::span<const NamedMesh> meshes);
 
 /// Text with one `o` per mesh. `mtllib`: name of the material file; empty: none. With materials per
 /// vertex a face has that of its first vertex.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
+[[nodiscard]] std::uint64_t meshes_without_tangents(std::span<const NamedMesh> meshes);
 /// The number of faces between vertices of different materials.
 [[nodiscard]] std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes);
 

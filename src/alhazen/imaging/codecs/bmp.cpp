@@ -178,6 +178,8 @@ class RunReader {
 
   private:
     static constexpr std::size_t kEndOfLine = 0, kEndOfBitmap = 1, kMove = 2;
+    /// Indices beyond a row that are dropped: some writers code rows of whole groups of four.
+    static constexpr std::size_t kPadding = 3;
 
     /// Index `i` of a run of codes.
     [[nodiscard]] char index_in(std::string_view codes, std::size_t i) const {
@@ -186,8 +188,9 @@ class RunReader {
         return char(i % 2 == 0 ? both >> 4 : both & 15);
     }
     void put(char index) {
-        if (x_ >= width_) bad_image(reader_.name(), "damaged BMP: a run leaves its row");
-        indices_[y_ * width_ + x_++] = index;
+        if (x_ >= width_ + kPadding) bad_image(reader_.name(), "damaged BMP: a run leaves its row");
+        if (x_ < width_) indices_[y_ * width_ + x_] = index;
+        ++x_;
     }
 
     ByteReader& reader_;

@@ -83,13 +83,33 @@ int band_rows(int height) {
     return std::min(height, 64);
 }
 
-/// Decodes rows in bands, so that a file that ends early takes memory only for the data it has.
-void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, Image& image) {
+/// The pixels of the display window that the data window holds; empty if it holds none.
+HeldPixels held_pixels(const Imath::Box2i& data, const ExrWindow& display) {
+    const auto x0 = std::max<std::int64_t>(data.min.x, display.x0);
+    const auto y0 = std::max<std::int64_t>(data.min.y, display.y0);
+    const auto x1 = std::min<std::int64_t>(data.max.x, display.x1);
+    const auto y1 = std::min<std::int64_t>(data.max.y, display.y1);
+    if (x1 < x0 || y1 < y0) return {};
+    return {int(x0 - display.x0), int(y0 - display.y0), int(x1 - x0 + 1), int(y1 - y0 + 1)};
+}
+
+/// Decodes the rows of `held` in bands, so that a file that ends early takes memory only for the
+/// data it has.
+void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels,
+                const ExrWindow& display, const HeldPixels& held, Image& image) {
     const Imath::Box2i window = file.header().dataWindow();
-    const std::size_t row_samples = std::size_t(image.width) * channels.size();
-    std::vector<float> band(row_samples * std::size_t(band_rows(image.height)));
-    for (int y = window.min.y; y <= window.max.y; y += band_rows(image.height)) {
-        const int last = std::min(y + band_rows(image.height) - 1, window.max.y);
+    const std::size_t data_width = std::size_t(window.max.x - window.min.x + 1);
+    const std::size_t row_samples = data_width * channels.size();
+    const std::size_t image_row = std::size_t(image.width) * channels.size();
+    const std::size_t left = std::size_t(held.x0) * channels.size();
+    const auto skipped = std::size_t(held.x0 + display.x0 - window.min.x) * channels.size();
+    const std::size_t kept = std::size_t(held.width) * channels.size();
+    const int rows = band_rows(held.height);
+    std::vector<float> band(row_samples * std::size_t(rows));
+    image.samples.resize(image_row * std::size_t(held.y0));
+    const int begin = int(held.y0 + display.y0), end = begin + held.height;
+    for (int y = begin; y < end; y += rows) {
+        const int last = std::min(y + rows, end) - 1;
         const Imath::Box2i place(Imath::V2i(window.min.x, y), Imath::V2i(window.max.x, last));
         Imf::FrameBuffer frame;
         for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -99,9 +119,13 @@ void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, 
         }
         file.setFrameBuffer(frame);
         file.readPixels(y, last);
-        const std::size_t count = row_samples * std::size_t(last - y + 1);
-        image.samples.insert(image.samples.end(), band.begin(),
-                             band.begin() + std::ptrdiff_t(count));
+        for (std::size_t row = 0; row < std::size_t(last - y + 1); ++row) {
+            const std::size_t row_end = image.samples.size() + image_row;
+            image.samples.resize(image.samples.size() + left);
+            const float* from = band.data() + row * row_samples + skipped;
+            image.samples.insert(image.samples.end(), from, from + kept);
+            image.samples.resize(row_end);
+        }
     }
 }
 
@@ -110,8 +134,8 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
     MemoryInput stream(header.bytes, bytes, name);
     Imf::InputFile file(stream, 0);
     const Imath::Box2i window = file.header().dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    const std::int64_t data_width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t width = header.display.width(), height = header.display.height();
     check_image_size(width, height, limits, name);
     const std::vector<std::string> channels = channel_names(file.header().channels(), name);
     for (const std::string& channel : channels) {
@@ -125,13 +149,17 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
                       "the EXR channel " + channel + " holds integers, expected half or float");
         }
     }
+    const HeldPixels held = held_pixels(window, header.display);
     // The decoder's buffers, checked with the header, are in memory at the same time.
     const std::uint64_t all =
         sample_bytes(width, height, channels.size(), sizeof(float)) + header.decoder_bytes +
-        sample_bytes(width, band_rows(int(height)), channels.size(), sizeof(float));
+        sample_bytes(data_width, band_rows(held.height), channels.size(), sizeof(float));
     check_image_memory(all, limits, name);
     Image image = reserved_image(int(width), int(height), int(channels.size()), true, limits, name);
-    read_bands(file, channels, image);
+    image.associated = image.channels == 2 || image.channels == 4;
+    if (held.width > 0) read_bands(file, channels, header.display, held, image);
+    image.samples.resize(std::size_t(width) * std::size_t(height) * channels.size());
+    if (held.width < image.width || held.height < image.height) image.held = held;
     return image;
 }
 

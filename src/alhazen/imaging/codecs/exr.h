@@ -4,7 +4,9 @@
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009.
 /// Differs: reads flat images only: the first part of a multi-part file; R, G, B (A), or Y (A), or
 /// a single channel of any name. Refuses luminance with chroma and subsampled channels.
-/// Conventions: the image is the data window. A missing channel of R, G, B is 0. Written files are
+/// Conventions: the image has the size of the display window; data outside of it are dropped,
+/// pixels outside of the data window are 0 (Image::held). Colours are associated with alpha and
+/// read and written as they are. A missing channel of R, G, B is 0. Written files are
 /// ZIP-compressed scan lines; the same image gives the same bytes.
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,8 @@ constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
 
 struct PartHeader {
     std::int64_t width = 0, height = 0;
+    ExrWindow data;
+    std::optional<ExrWindow> display;
     std::uint64_t channels = 0;
     bool has_window = false;
     std::uint8_t compression = 0;
@@ -60,17 +63,16 @@ std::uint64_t count_channels(ByteReader list) {
     return count;
 }
 
-void read_window(ByteReader value, PartHeader& part) {
-    const std::int64_t x0 = value.i32_little(), y0 = value.i32_little();
-    const std::int64_t x1 = value.i32_little(), y1 = value.i32_little();
+ExrWindow read_window(ByteReader value, const char* which) {
+    ExrWindow window;
+    window.x0 = value.i32_little(), window.y0 = value.i32_little();
+    window.x1 = value.i32_little(), window.y1 = value.i32_little();
     // The library computes the corners in int.
     constexpr std::int64_t kFar = std::int64_t{1} << 29;
-    if (x0 < -kFar || y0 < -kFar || x1 > kFar || y1 > kFar) {
-        bad_image(value.name(), "damaged EXR: the data window is out of range");
+    if (window.x0 < -kFar || window.y0 < -kFar || window.x1 > kFar || window.y1 > kFar) {
+        bad_image(value.name(), std::string("damaged EXR: the ") + which + " is out of range");
     }
-    part.width = x1 - x0 + 1;
-    part.height = y1 - y0 + 1;
-    part.has_window = true;
+    return window;
 }
 
 void read_tiles(ByteReader value, PartHeader& part) {
@@ -120,7 +122,12 @@ bool is_needed(std::string_view attribute, std::string_view type, std::uint32_t 
 
 void read_value(std::string_view attribute, ByteReader value, PartHeader& part) {
     if (attribute == "dataWindow") {
-        read_window(value, part);
+        part.data = read_window(value, "data window");
+        part.width = part.data.width();
+        part.height = part.data.height();
+        part.has_window = true;
+    } else if (attribute == "displayWindow") {
+        part.display = read_window(value, "display window");
     } else if (attribute == "channels") {
         part.channels = count_channels(value);
     } else if (attribute == "tiles") {
@@ -160,6 +167,9 @@ bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
     }
     if (!part.has_window) bad_image(name, "damaged EXR: there is no dataWindow");
     check_image_size(part.width, part.height, limits, name);
+    if (part.display) {
+        check_image_size(part.display->width(), part.display->height(), limits, name);
+    }
     if (part.channels == 0) bad_image(name, "damaged EXR: there are no channels");
     if (part.channels > kMaxRowSamples / std::uint64_t(part.width)) {
         throw Error(ErrorKind::Resource,
@@ -184,9 +194,11 @@ ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
     std::vector<std::string_view> ignored;
     int parts = 0;
     std::uint64_t first_part_bytes = 0;
+    ExrWindow display;
     for (PartHeader part; read_part(reader, ignored, limits, part); part = {}) {
         if (++parts == 1) {
             first_part_bytes = decoder_bytes(part);
+            display = part.display.value_or(part.data);
             check_image_memory(first_part_bytes, limits, name);
         }
         if ((version & kMultiPartFlag) == 0) break;
@@ -197,7 +209,7 @@ ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
     for (const std::string_view type : ignored) {
         header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');
     }
-    return {std::move(header), first_part_bytes};
+    return {std::move(header), display, first_part_bytes};
 }
 
 }  // namespace alhazen

@@ -2,7 +2,8 @@
 /// Checks the sizes in an OpenEXR header before the library reads the file.
 ///
 /// Source: "OpenEXR File Layout", openexr.com.
-/// Differs: reads only the attributes that decoding needs.
+/// Differs: reads only the attributes that decoding needs. The limits of the picture's size apply
+/// to the display window and, as the library's memory grows with it, to the data window.
 /// Conventions: the first part of a multi-part file is decoded; the others are checked too, because
 /// the library prepares all of them.
 
@@ -14,8 +15,16 @@
 
 namespace alhazen {
 
+/// The corners of a window, inclusive.
+struct ExrWindow {
+    std::int64_t x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+    [[nodiscard]] std::int64_t width() const { return x1 - x0 + 1; }
+    [[nodiscard]] std::int64_t height() const { return y1 - y0 + 1; }
+};
+
 struct ExrHeader {
     std::string bytes;
+    ExrWindow display;  ///< of the first part; the data window if the file states none
     /// Upper bound of the library's allocations for decoding the first part: a run of rows or a
     /// tile (packed, unpacked and being unpacked), and a row of tiles.
     std::uint64_t decoder_bytes = 0;

@@ -84,6 +84,16 @@ ImageLimits beside(const std::string& bytes, ImageLimits limits) {
     return limits;
 }
 
+/// True if straight colours differ from associated ones.
+bool has_partial_cover(const Image& image) {
+    const auto step = std::size_t(image.channels);
+    if (image.associated || (step != 2 && step != 4)) return false;
+    for (std::size_t i = step - 1; i < image.samples.size(); i += step) {
+        if (image.samples[i] != 1.0f) return true;
+    }
+    return false;
+}
+
 /// The image with linear values; alpha is linear already.
 Image linear_copy(Image image) {
     image.linear = true;
@@ -164,6 +174,9 @@ std::vector<std::byte> encode_image(const std::string& suffix, const Image& imag
     // Linear images, which can be large, are not copied.
     if ((suffix == "exr" || suffix == "hdr" || suffix == "pfm") && !image.linear) {
         return encode_image(suffix, linear_copy(image), options);
+    }
+    if (suffix == "exr" && has_partial_cover(image)) {
+        return encode_exr(associated_copy(image), options);
     }
     if (suffix == "exr") return encode_exr(image, options);
     if (suffix == "hdr") return encode_hdr(image);

@@ -3,11 +3,14 @@
 /// content when reading.
 ///
 /// Reads: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32
-/// bit, not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Writes: PNG, JPG, EXR, HDR,
+/// bit, RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Writes: PNG, JPG, EXR, HDR,
 /// PFM.
 /// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes: the
 /// sizes, and the bytes of the samples and of the decoder's buffers. Memory grows with the decoded
-/// data, not with the sizes in the header. The image of an EXR is its data window.
+/// data, not with the sizes in the header, except that an EXR has the size of its display window:
+/// pixels outside of the data window are 0, data outside of the display window are dropped. The
+/// colours of an EXR with alpha are associated with it (Image::associated), those of other formats
+/// are not.
 
 #include <cstddef>
 #include <cstdint>
@@ -72,7 +75,9 @@ struct ImageWriteOptions {
 void check_image_suffix(const std::filesystem::path& path);
 
 /// Writes in the format of the suffix of `path`, in one step (see write_file_atomically). EXR, HDR
-/// and PFM hold linear values: an encoded image is first decoded from sRGB. Throws Error: Usage for
+/// and PFM hold linear values: an encoded image is first decoded from sRGB. EXR holds colours
+/// multiplied by alpha, unless that is 0: those of an image that is not associated are multiplied.
+/// Throws Error: Usage for
 /// an unknown suffix, an empty image or invalid options, File if writing fails.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageWriteOptions& options = {});

@@ -1,5 +1,6 @@
 #include "alhazen/imaging/codecs/jpeg.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +25,7 @@ constexpr int kMaxScans = 100;
 struct ErrorState {
     jpeg_error_mgr manager;  // first, so that cinfo->err points to the whole struct
     std::jmp_buf jump;
+    bool lacks_end = false;  ///< the data end without the marker of the end
     char message[JMSG_LENGTH_MAX] = "";
 };
 
@@ -34,7 +36,8 @@ void on_error(j_common_ptr cinfo) {
 }
 
 /// Level -1 is a warning. Warnings that leave every pixel unchanged are ignored, all others end the
-/// reading.
+/// reading. After the end of the data libjpeg reads a marker of the end; another warning follows if
+/// the scan needs more, except with arithmetic codes, whose last zeros may be left out.
 void on_message(j_common_ptr cinfo, int level) {
     if (level >= 0) return;
     switch (cinfo->err->msg_code) {
@@ -42,6 +45,12 @@ void on_message(j_common_ptr cinfo, int level) {
         case JWRN_EXTRANEOUS_DATA:
         case JWRN_TOO_MUCH_DATA:
             return;
+        case JWRN_JPEG_EOF: {
+            auto* state = reinterpret_cast<ErrorState*>(cinfo->err);
+            if (reinterpret_cast<j_decompress_ptr>(cinfo)->arith_code != 0) on_error(cinfo);
+            state->lacks_end = true;
+            return;
+        }
         default:
             on_error(cinfo);
     }
@@ -199,6 +208,20 @@ class Writer {
     Compression state_;
 };
 
+/// True if a file of several scans has all of them: each component, and of a progressive file each
+/// bit of each coefficient. Call it between start and end of the decompression.
+bool has_all_scans(const jpeg_decompress_struct& cinfo) {
+    for (int i = 0; i < cinfo.num_components; ++i) {
+        if (cinfo.comp_info[i].quant_table == nullptr) return false;
+        if (cinfo.progressive_mode == 0) continue;
+        const auto& missing = cinfo.coef_bits[i];
+        if (std::any_of(missing, missing + DCTSIZE2, [](int bits) { return bits != 0; })) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Memory that libjpeg uses for an image whose data come in several scans: a short for each
 /// coefficient of each component, in whole blocks of 8 x 8 and whole groups of blocks.
 std::uint64_t coefficient_bytes(jpeg_decompress_struct& cinfo) {
@@ -265,6 +288,10 @@ StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
     check_image_memory(sample_bytes(width, height, kept, 1) + coefficient_bytes(state.cinfo),
                        limits, name);
     reader.check(start_reading);
+    // Then all scans have been read.
+    if (state.error.lacks_end && !has_all_scans(state.cinfo)) {
+        bad_image(name, "damaged JPEG: the data end too early");
+    }
     const int channels = state.cinfo.out_color_components;
     StoredImage image{int(width), int(height), channels == 1 ? 1 : 3, false, {}};
     std::vector<std::uint8_t> codes;

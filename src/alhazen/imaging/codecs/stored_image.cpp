@@ -1,7 +1,9 @@
 #include "alhazen/imaging/codecs/stored_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "alhazen/imaging/image/encoding.h"
@@ -60,6 +62,17 @@ bool to_codes(const std::vector<float>& samples, std::vector<Code>& codes) {
     return true;
 }
 
+/// Copies a pixel of colours that are multiplied by the last channel, alpha, without the product.
+void copy_straight(const float* from, std::size_t channels, float* to) {
+    std::copy_n(from, channels, to);
+    const float alpha = from[channels - 1];
+    if (!(alpha > 0.0f)) return;
+    for (std::size_t k = 0; k + 1 < channels; ++k) {
+        const float straight = from[k] / alpha;
+        if (std::isfinite(straight)) to[k] = straight;
+    }
+}
+
 template <class Sample>
 Rgba pixel_of(const Sample* p, int channels, bool decode_srgb) {
     const auto color = [&](int i) { return decode_srgb ? decoded(p[i]) : double(value_of(p[i])); };
@@ -85,7 +98,13 @@ Rgba StoredImage::pixel(std::size_t index, bool decode_srgb) const {
     if (const auto* words = std::get_if<1>(&samples)) {
         return pixel_of(words->data() + first, channels, decode_srgb);
     }
-    return pixel_of(std::get<2>(samples).data() + first, channels, decode_srgb);
+    const float* const floats = std::get<2>(samples).data() + first;
+    if (associated) {
+        std::array<float, 4> straight{};
+        copy_straight(floats, std::size_t(channels), straight.data());
+        return pixel_of(straight.data(), channels, decode_srgb);
+    }
+    return pixel_of(floats, channels, decode_srgb);
 }
 
 void StoredImage::read_pixels(std::size_t first, std::size_t count, bool decode_srgb,
@@ -97,8 +116,17 @@ void StoredImage::read_pixels(std::size_t first, std::size_t count, bool decode_
         [&](const auto& all) {
             const auto* in = all.data() + first * step;
             for (std::size_t i = 0; i < count; ++i, in += step, out += step) {
+                auto* from = in;
+                [[maybe_unused]] std::array<float, 4> straight;
+                if constexpr (std::is_same_v<decltype(in), const float*>) {
+                    if (associated) {
+                        copy_straight(in, step, straight.data());
+                        from = straight.data();
+                    }
+                }
                 for (std::size_t k = 0; k < step; ++k) {
-                    out[k] = decode_srgb && k < colors ? decoded(in[k]) : double(value_of(in[k]));
+                    out[k] =
+                        decode_srgb && k < colors ? decoded(from[k]) : double(value_of(from[k]));
                 }
             }
         },
@@ -120,6 +148,7 @@ bool StoredImage::is_opaque() const {
 
 StoredImage stored(Image image) {
     StoredImage result{image.width, image.height, image.channels, image.linear, {}};
+    result.held = image.held;
     if (!image.linear) {
         if (std::vector<std::uint8_t> bytes; to_codes(image.samples, bytes)) {
             result.samples = std::move(bytes);
@@ -131,6 +160,7 @@ StoredImage stored(Image image) {
         }
     }
     result.samples = std::move(image.samples);
+    result.associated = image.associated && (image.channels == 2 || image.channels == 4);
     return result;
 }
 
@@ -140,6 +170,8 @@ Image expanded(StoredImage image) {
     result.height = image.height;
     result.channels = image.channels;
     result.linear = image.linear;
+    result.associated = image.associated;
+    result.held = image.held;
     if (auto* floats = std::get_if<std::vector<float>>(&image.samples)) {
         result.samples = std::move(*floats);
         return result;
@@ -151,6 +183,18 @@ Image expanded(StoredImage image) {
         },
         image.samples);
     return result;
+}
+
+Image associated_copy(Image image) {
+    if (image.channels != 2 && image.channels != 4) return image;
+    image.associated = true;
+    const auto step = std::size_t(image.channels);
+    for (std::size_t i = step - 1; i < image.samples.size(); i += step) {
+        const float alpha = image.samples[i];
+        if (!(alpha > 0.0f)) continue;
+        for (std::size_t k = i - (step - 1); k < i; ++k) image.samples[k] *= alpha;
+    }
+    return image;
 }
 
 }  // namespace alhazen

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "alhazen/base/huge_pages.h"
+#include "alhazen/base/zero_pages.h"
 #include "alhazen/imaging/image/image.h"
 
 namespace alhazen {
@@ -49,7 +49,8 @@ class Film {
 
     int frame_width_, frame_height_;
     PixelBox crop_;
-    HugeVector<Rgb> samples_;  // with 4 KiB pages a large film would cost thousands of page faults
+    // With 4 KiB pages a large film would cost thousands of page faults.
+    std::vector<Rgb, ZeroPageAllocator<Rgb>> samples_;
 };
 
 /// The tiles of the crop, of at most `tile_size` squared pixels, row by row.

@@ -4,6 +4,7 @@
 /// Conventions: values are as in the file or from the renderer; `linear` tells whether they are
 /// linear radiance (EXR, HDR, PFM, renders) or encoded for display (PNG, JPG, BMP: value / 255).
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -11,11 +12,19 @@
 
 namespace alhazen {
 
+/// The pixels that a file holds of a picture whose other pixels are 0: the data window of an EXR
+/// inside its display window. Empty: it holds all.
+struct HeldPixels {
+    int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
 struct Image {
     int width = 0, height = 0;
     int channels = 3;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
     bool linear = true;
     std::vector<float> samples;  ///< [height][width][channels]
+    bool associated = false;     ///< colours are multiplied by alpha (premultiplied), as in EXR
+    HeldPixels held;
 
     Image() = default;
     Image(int width_, int height_, int channels_)
@@ -38,5 +47,19 @@ struct Image {
         return channels < 3 ? Rgb{p[0], p[0], p[0]} : Rgb{p[0], p[1], p[2]};
     }
 };
+
+/// The pixels that the file held; the image itself if it held all.
+[[nodiscard]] inline Image held_part(const Image& image) {
+    const HeldPixels& held = image.held;
+    if (held.width == 0) return image;
+    Image part(held.width, held.height, image.channels);
+    part.linear = image.linear;
+    part.associated = image.associated;
+    const std::size_t row = std::size_t(held.width) * std::size_t(image.channels);
+    for (int y = 0; y < held.height; ++y) {
+        std::copy_n(image.pixel(held.x0, held.y0 + y), row, part.pixel(0, y));
+    }
+    return part;
+}
 
 }  // namespace alhazen

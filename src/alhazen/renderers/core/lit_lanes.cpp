@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "alhazen/renderers/core/lit_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/simd/lane_vectors-inl.h"
+#include "alhazen/renderers/core/light_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -18,14 +18,8 @@ namespace lit_lanes {
 template <std::size_t N>
 using Numbers = Lanes<double, N>;
 
-template <std::size_t N>
-HWY_INLINE VectorLanes<N> vectors_of(const Vec3& v) {
-    return {Numbers<N>(v.x), Numbers<N>(v.y), Numbers<N>(v.z)};
-}
-template <std::size_t N>
-HWY_INLINE VectorLanes<N> vectors_of(const Rgb& c) {
-    return {Numbers<N>(c.r), Numbers<N>(c.g), Numbers<N>(c.b)};
-}
+using light_lanes::vectors_of;
+
 template <std::size_t N>
 HWY_INLINE VectorLanes<N> products(const VectorLanes<N>& a, const VectorLanes<N>& b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
@@ -57,8 +51,10 @@ class Shader {
         const VectorLanes<N> diffuse =
             color([](const LitMaterial& m) -> const Rgb& { return m.sample.diffuse; });
         const std::uint32_t shiny = lanes_.shiny >> first_;
+        const VectorLanes<N> point = load(surfaces_.point);
         for (const Light* light : lights) {
-            const Arriving a = arriving(*light);
+            const light_lanes::Arriving<N> a =
+                light_lanes::arriving<N>(*light, conventions_.clamp_attenuation, point, count_);
             const Numbers<N> cosine = dot(normal_, a.to_light);
             const LaneMask<double, N> lit = cosine > nothing;
             VectorLanes<N> fraction = cosine * diffuse;
@@ -73,11 +69,6 @@ class Shader {
     }
 
   private:
-    /// LightSample in lanes.
-    struct Arriving {
-        VectorLanes<N> to_light, intensity;
-    };
-
     HWY_INLINE VectorLanes<N> load(const double (&rows)[3][kSurfaceLanes]) const {
         return {load_lanes<N>(rows[0] + first_), load_lanes<N>(rows[1] + first_),
                 load_lanes<N>(rows[2] + first_)};
@@ -97,45 +88,6 @@ class Shader {
         if (!lanes_.mixed) return vectors_of<N>(of(*lanes_.material[0]));
         return gathered([&](std::size_t i)
                             HWY_ATTR -> const Rgb& { return of(*lanes_.material[i]); });
-    }
-
-    HWY_INLINE Arriving arriving(const Light& light) const {
-        const auto* at_point = std::get_if<PointLight>(&light);
-        if (at_point != nullptr && !at_point->profile.profile) return arriving_from(*at_point);
-        if (const auto* far = std::get_if<DirectionalLight>(&light)) {
-            return {vectors_of<N>(far->to_light), vectors_of<N>(far->color)};
-        }
-        return arriving_alone(light);
-    }
-    HWY_INLINE Arriving arriving_from(const PointLight& light) const {
-        const Attenuation& a = light.attenuation;
-        const Numbers<N> unit(1.0), nothing(0.0);
-        const VectorLanes<N> offset = vectors_of<N>(light.position) - load(surfaces_.point);
-        const Numbers<N> d = sqrt(dot(offset, offset));
-        Numbers<N> factor = unit / (Numbers<N>(a.constant) + Numbers<N>(a.linear) * d +
-                                    Numbers<N>(a.quadratic) * (d * d));
-        if (conventions_.clamp_attenuation) factor = select_lanes(factor < unit, factor, unit);
-        if (light.range != kNoRange) {
-            const Numbers<N> x = d / Numbers<N>(light.range);
-            const Numbers<N> left = unit - (x * x) * (x * x);
-            factor = factor * select_lanes(left < nothing, nothing, left);
-        }
-        return {offset / d, factor * vectors_of<N>(light.color)};
-    }
-    /// Any light, lane by lane.
-    HWY_NOINLINE Arriving arriving_alone(const Light& light) const {
-        alignas(64) double to_light[3][N], intensity[3][N];
-        for (std::size_t i = 0; i < N; ++i) {
-            const std::size_t at = i < count_ ? first_ + i : first_;
-            const LightSample s = sample(
-                light, {surfaces_.point[0][at], surfaces_.point[1][at], surfaces_.point[2][at]},
-                conventions_.clamp_attenuation);
-            for (int k = 0; k < 3; ++k) {
-                to_light[k][i] = s.to_light[k];
-                intensity[k][i] = s.intensity[k];
-            }
-        }
-        return {load_vectors<N>(to_light), load_vectors<N>(intensity)};
     }
 
     /// As `reflected_fraction`, for the lanes in `set`; `fraction` is matt before.

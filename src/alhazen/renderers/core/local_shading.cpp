@@ -28,16 +28,13 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface, const NormalMap& 
                    const std::array<UvFootprint, 2>& footprint) {
     const auto& texture =
         std::get<ImageTexture>(scene.textures[static_cast<std::size_t>(map.texture)]);
-    const bool second = texture.uv_set == 1;
     const Vec3& n = surface.shading_normal;
     TangentFrame frame;
     if (surface.tangent != Vec3{}) {
         frame = frame_from_tangents(n, surface.tangent, surface.bitangent);
     } else {
-        Vec3 dpdu = second ? surface.dpdu2 : surface.dpdu;
-        Vec3 dpdv = second ? surface.dpdv2 : surface.dpdv;
-        apply_uv_transform(texture.uv_transform, dpdu, dpdv);
-        frame = frame_from_derivatives(n, dpdu, dpdv);
+        const SurfaceDirections directions = directions_of(surface, texture);
+        frame = frame_from_derivatives(n, directions.u, directions.v);
     }
     const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}, {}};
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
@@ -61,6 +58,24 @@ void set_coat_normal(const Scene& scene, const Material& material,
 }
 
 }  // namespace
+
+SurfaceDirections directions_of(const Surface& surface, const ImageTexture& picture) {
+    const bool second = picture.uv_set == 1;
+    SurfaceDirections directions{second ? surface.dpdu2 : surface.dpdu,
+                                 second ? surface.dpdv2 : surface.dpdv};
+    apply_uv_transform(picture.uv_transform, directions.u, directions.v);
+    return directions;
+}
+
+SurfaceDirections groove_directions(const Scene& scene, const Surface& surface) {
+    if (surface.tangent != Vec3{}) return {surface.tangent, surface.bitangent};
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    if (has_grooves(material) && material.normal_map.texture != kNoTexture) {
+        const auto map = static_cast<std::size_t>(material.normal_map.texture);
+        return directions_of(surface, std::get<ImageTexture>(scene.textures[map]));
+    }
+    return {surface.dpdu, surface.dpdv};
+}
 
 Vec3 mapped_normal_seen(const Vec3& mapped, const Vec3& shading, const Vec3& view) {
     constexpr double kLeastCosine = 1e-3;

@@ -76,6 +76,20 @@ struct ShadingPoint {
                                          const std::array<UvFootprint, 2>& footprint = {},
                                          const SolidAperture& aperture = {});
 
+/// The directions of u and v in a surface, of any lengths; zero where undefined.
+struct SurfaceDirections {
+    Vec3 u, v;
+};
+/// The derivatives of the point by the coordinates with which `picture` is read: those of its set,
+/// after its transform.
+[[nodiscard]] SurfaceDirections directions_of(const Surface& surface, const ImageTexture& picture);
+/// The directions from which the grooves of the material (the first of blended ones) count: the
+/// tangents of the mesh; without them those of the normal map, without a map those of set 0.
+///
+/// Source: glTF 2.0, tangents of meshes without them; KhronosGroup/glTF-Sample-Viewer,
+/// getNormalInfo, which leaves the set of the anisotropy texture out.
+[[nodiscard]] SurfaceDirections groove_directions(const Scene& scene, const Surface& surface);
+
 /// The normal that a viewer in the unit direction `view` sees: `mapped` of a point whose
 /// interpolated normal is `shading`, on the viewer's side; rotated to face the viewer where it does
 /// not.

@@ -51,18 +51,13 @@ class Generation {
         rays_.clear();
         paths_.clear();
     }
-    /// All rays at once, each with the same path.
-    void begin(std::span<const Ray> rays, const Path& path) {
-        rays_.assign(rays.begin(), rays.end());
-        paths_.assign(rays.size(), path);
-    }
-    [[nodiscard]] std::span<Path> paths() { return paths_; }
     /// Returns the number of the new ray.
     std::uint32_t add(const Ray& ray, const Path& path) {
         rays_.push_back(ray);
         paths_.push_back(path);
         return static_cast<std::uint32_t>(rays_.size() - 1);
     }
+    [[nodiscard]] Path& last_path() { return paths_.back(); }
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
     /// Allocates the radiance of the rays, black. Call after the last ray is added.
     void make_ready() { radiance_.assign(rays_.size(), Rgb{}); }

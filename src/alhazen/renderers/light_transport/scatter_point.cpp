@@ -38,10 +38,8 @@ bool is_mirrored(const Scene& scene, const Surface& surface, const Vec3& view) {
         turned = turned || has_turned_grooves(scene.materials[id]);
     }
     if (!turned) return false;
-    const bool has_tangent = surface.tangent != Vec3{};
-    const Vec3& tangent = has_tangent ? surface.tangent : surface.dpdu;
-    const Vec3& bitangent = has_tangent ? surface.bitangent : surface.dpdv;
-    const bool left_handed = dot(cross(surface.shading_normal, tangent), bitangent) < 0.0;
+    const auto [u, v] = groove_directions(scene, surface);
+    const bool left_handed = dot(cross(surface.shading_normal, u), v) < 0.0;
     return left_handed != (dot(view, surface.shading_normal) < 0.0);
 }
 
@@ -73,7 +71,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     entering_ = point.entering;
     thin_ = material.thin;
     one_sided_ = is_unseen_from_behind(material);
-    const Vec3& tangent = surface.tangent != Vec3{} ? surface.tangent : surface.dpdu;
+    const Vec3 tangent = groove_directions(scene, surface).u;
     frame_ = ShadingFrame::of(point.normal, tangent);
     map_.reset();
     if (point.has_map) {

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
+#include "alhazen/renderers/core/direct_light.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
@@ -62,6 +65,10 @@ concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
+/// Mirrored and refracted rays of neighbours stay neighbours for a few generations: these are
+/// traced as coherent rays unless their directions are drawn at random.
+inline constexpr int kLastCoherentGeneration = 2;
+
 /// Traces batches of eye rays; memory is reused from batch to batch.
 template <class Randomness>
 class RecursiveEstimator {
@@ -79,7 +86,13 @@ class RecursiveEstimator {
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
           random_(job),
-          split_(split) {
+          split_(split),
+          unhindered_(Rgb{1, 1, 1} * scene_.background) {
+        if constexpr (kDrawsNothing) {
+            if (DirectLight::covers(scene_)) {
+                direct_.emplace(scene_, counters, job.count_tests ? &counters.tests : nullptr);
+            }
+        }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             if (illuminates(scene_.lights[i])) shadow_lights_.push_back(i);
         }
@@ -94,16 +107,15 @@ class RecursiveEstimator {
         if constexpr (TreeWatcher<Randomness>) random_.use(*optics_);
     }
 
-    /// Writes the radiance along eye rays of unit direction.
+    /// Adds the radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
-        eye_.begin(rays, eye_path_);
-        for (std::uint32_t sample = 0; Path& p : eye_.paths()) {
-            p.sample = sample++;
-            p.time = random_.time(p.sample);
+        prepare_eye_paths(rays.size());
+        const std::span<Path> paths(eye_paths_);
+        for (std::size_t i = 0; i < rays.size(); i += rays_at_once_) {
+            const std::size_t count = std::min(rays_at_once_, rays.size() - i);
+            trace_part(
+                {rays.subspan(i, count), paths.subspan(i, count), radiance.subspan(i, count)}, 0);
         }
-        trace_all(eye_, 0);
-        const std::span<const Rgb> found = eye_.part(0, rays.size()).radiance;
-        std::copy(found.begin(), found.end(), radiance.begin());
     }
 
     [[nodiscard]] Randomness& randomness() { return random_; }
@@ -114,7 +126,22 @@ class RecursiveEstimator {
     void start_from(std::span<const Hit> hits) { known_hits_ = hits; }
 
   private:
-    /// Traces all rays of a generation; `depth` is 0 for eye rays.
+    static constexpr bool kDrawsNothing = std::is_same_v<Randomness, NoRandomness>;
+
+    /// Sets the paths of the next eye rays, which differ in few things from the last ones.
+    void prepare_eye_paths(std::size_t count) {
+        for (const std::uint32_t sample : gone_on_) eye_paths_[sample].cone = eye_path_.cone;
+        gone_on_.clear();
+        while (eye_paths_.size() < count) {
+            Path& path = eye_paths_.emplace_back(eye_path_);
+            path.sample = static_cast<std::uint32_t>(eye_paths_.size() - 1);
+        }
+        if constexpr (!kDrawsNothing) {
+            for (Path& path : eye_paths_) path.time = random_.time(path.sample);
+        }
+    }
+
+    /// Traces all rays of a generation behind that of the eye rays.
     void trace_all(Generation& generation, int depth) {
         generation.make_ready();
         const std::size_t most =
@@ -129,16 +156,20 @@ class RecursiveEstimator {
     void trace_part(const GenerationPart& part, int depth) {
         Wavefront& front = front_at(depth);
         front.begin(part.size());
-        for (const Path& path : part.paths) ++counters_[path.kind].cast;
+        if (depth == 0) {
+            counters_[RayKind::Eye].cast += part.size();
+        } else {
+            for (const Path& path : part.paths) ++counters_[path.kind].cast;
+        }
         if constexpr (TreeWatcher<Randomness>) random_.begin_rays(part, depth);
         for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
             // One eye ray may cause millions of rays. Its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
-            shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
+            if (!direct_) shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
             intersect_surfaces(part, depth, met == 0, front);
-            shadows_.finish();
+            direct_ ? direct_->finish() : shadows_.finish();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Randomness>) random_.gather(front, depth);
             gather(front, part.radiance);
@@ -159,19 +190,21 @@ class RecursiveEstimator {
     /// Finds the next surface along each active ray; `first`: none has been found yet.
     void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
-        const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
+        const int coherent = kDrawsNothing ? kLastCoherentGeneration : 0;
+        const Coherence coherence =
+            first && depth <= coherent ? Coherence::Coherent : Coherence::Any;
         const auto path_of = [&](std::size_t k) -> const Path& {
             return part.paths[front.active[k]];
         };
         const bool keeps = first && depth == 0 && !eye_hits_.empty();
         const auto tell = [&](std::size_t k, const ShadingPoint* point, double t) {
             const std::uint32_t i = front.active[k];
-            Rgb& left = front.left[i];
             if (point == nullptr) {
-                if constexpr (TreeWatcher<Randomness>) random_.miss(i, left, depth);
-                part.radiance[i] = part.radiance[i] + left * scene_.background;
+                if constexpr (TreeWatcher<Randomness>) random_.miss(i, front.left[i], depth);
+                part.radiance[i] += first ? unhindered_ : front.left[i] * scene_.background;
                 return;
             }
+            Rgb& left = front.left[i];
             Path& path = part.paths[i];
             counters_[path.kind].hit += first;
             if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
@@ -187,6 +220,7 @@ class RecursiveEstimator {
             front.next_active.push_back(i);
             front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
             path.cone = path.cone.from(t);
+            if (depth == 0) gone_on_.push_back(path.sample);
         };
         const auto take = [&](std::size_t k, const Hit& hit) {
             if (keeps) eye_hits_[k] = hit;
@@ -242,11 +276,14 @@ class RecursiveEstimator {
             return;
         }
         met.own = unshadowed_terms(conventions_, ambient_, point);
-        const LeavingRays from(point.surface);
-        add_direct_light(seen, from, met.direct);
+        if (direct_) {
+            direct_->add(point, met.direct);
+        } else {
+            add_direct_light(seen, LeavingRays(point.surface), met.direct);
+        }
         if (seen.depth < conventions_.max_depth) {
-            if (conventions_.trace_reflections) reflect(seen, from, met, front.next);
-            if (conventions_.trace_refractions) transmit(seen, from, met, front);
+            if (conventions_.trace_reflections) reflect(seen, met, front.next);
+            if (conventions_.trace_refractions) transmit(seen, met, front);
         }
         if (!tracks_media()) return;
         met.filter = tint_along(conventions_, point, scene_.is_closed(point.surface.part), tinted_,
@@ -278,16 +315,14 @@ class RecursiveEstimator {
         }
     }
 
-    /// The path of a ray that the surface sends on.
-    static Path onward_path(const Seen& seen, RayKind kind, const Rgb& contribution) {
-        Path path = seen.path;
+    /// Changes the path of the ray that met the surface to that of a ray that the surface sends on.
+    static void send_on(const Seen& seen, RayKind kind, const Rgb& contribution, Path& path) {
         path.kind = kind;
         path.contribution = contribution;
         path.cone = seen.path.cone.from(seen.t);
-        return path;
     }
 
-    void reflect(const Seen& seen, const LeavingRays& from, MetSurface& met, Generation& next) {
+    void reflect(const Seen& seen, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
@@ -303,18 +338,20 @@ class RecursiveEstimator {
         }
         random_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
-        met.reflected = next.add(onward_ray(conventions_, from, direction),
-                                 onward_path(seen, RayKind::Reflection, contribution));
+        // Copied as a whole and then changed: a local path would be copied in pieces.
+        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), seen.path);
+        send_on(seen, RayKind::Reflection, contribution, next.last_path());
     }
 
-    void transmit(const Seen& seen, const LeavingRays& from, MetSurface& met, Wavefront& front) {
+    void transmit(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
         if (kt.is_black()) return;
         const Rgb contribution = seen.path.contribution * met.share * kt;
         if (contribution.max() < conventions_.min_contribution) return;
-        Path onward = onward_path(seen, RayKind::Refraction, contribution);
+        Path onward = seen.path;
+        send_on(seen, RayKind::Refraction, contribution, onward);
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
@@ -335,9 +372,9 @@ class RecursiveEstimator {
             if (scene_.has_masks) hide_from_shadows(seen, onward);
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
-            split(seen, from, onward, met, front);
+            split(seen, onward, met, front);
         } else {
-            met.refracted = send_refracted(seen, from, onward, front.next);
+            met.refracted = send_refracted(seen, onward, front.next);
         }
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
     }
@@ -353,20 +390,18 @@ class RecursiveEstimator {
     }
 
     /// Adds a refracted ray for each wavelength.
-    void split(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
-               Wavefront& front) {
+    void split(const Seen& seen, const Path& onward, MetSurface& met, Wavefront& front) {
         met.split = true;
         met.refracted = static_cast<std::uint32_t>(front.split.size());
         for (const WaveSplit::Wave& wave : split_->waves()) {
             Path path = onward;
             path.nm = static_cast<float>(wave.nm);
-            front.split.push_back(send_refracted(seen, from, path, front.next));
+            front.split.push_back(send_refracted(seen, path, front.next));
         }
     }
 
     /// Adds a refracted ray and returns its number; kNotSent for total internal reflection.
-    std::uint32_t send_refracted(const Seen& seen, const LeavingRays& from, const Path& onward,
-                                 Generation& next) {
+    std::uint32_t send_refracted(const Seen& seen, const Path& onward, Generation& next) {
         const ShadingPoint& point = seen.point;
         Vec3 direction = seen.ray.direction;
         if (!point.material->thin &&
@@ -375,7 +410,7 @@ class RecursiveEstimator {
             return MetSurface::kNotSent;
         }
         random_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        return next.add(onward_ray(conventions_, from, direction), onward);
+        return next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
 
     /// Refractive index on the side of the ray over that behind, at wavelength `nm`; 0: without
@@ -417,10 +452,13 @@ class RecursiveEstimator {
     ShadowBatch shadows_;
     Randomness random_;
     const WaveSplit* split_;
-    std::optional<ExactOptics> optics_;  ///< if the scene has exact optics
-    TintedMedia tinted_;                 ///< if it has none
-    Generation eye_;
-    std::deque<Wavefront> fronts_;  ///< [depth]; references stay valid while it grows
+    const Rgb unhindered_;                ///< the background as seen by a ray that meets nothing
+    std::optional<DirectLight> direct_;   ///< in place of `shadows_` if it covers the scene
+    std::optional<ExactOptics> optics_;   ///< if the scene has exact optics
+    TintedMedia tinted_;                  ///< if it has none
+    std::vector<Path> eye_paths_;         ///< [sample] of eye rays
+    std::vector<std::uint32_t> gone_on_;  ///< eye rays with another cone than at their start
+    std::deque<Wavefront> fronts_;        ///< [depth]; references stay valid while it grows
 };
 
 }  // namespace alhazen

@@ -183,6 +183,8 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
                meshes.front().mesh->vertex_materials.empty()) {
         bytes = ply_bytes(*meshes.front().mesh);  // with its tangents, bit for bit
     } else {
+        const std::uint64_t without = meshes_without_tangents(meshes);
+        if (without > 0) output.report().lost_tangents = meshes.size() - without;
         bytes = ply_bytes(meshes);
     }
     return finish(bytes, options, path, output);
@@ -232,6 +234,12 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
             fmt::format("mesh files do not keep the motion of {}, written as at time "
                         "{:g}, when the shutter opens (.alhazen keeps it)",
                         counted(report.moving_parts, "part"), report.moment));
+    }
+    if (report.lost_tangents > 0) {
+        lines.push_back(
+            fmt::format("a PLY has tangents if all meshes have them: those of {} {} are left out "
+                        "(.alhazen keeps them)",
+                        report.lost_tangents, report.lost_tangents == 1 ? "mesh" : "meshes"));
     }
     if (report.mixed_faces > 0) {
         lines.push_back(

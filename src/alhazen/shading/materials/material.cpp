@@ -47,14 +47,17 @@ bool reads_textures(const Material& m) {
 }
 
 bool reads_coordinates(const Material& m) {
-    return reads_textures(m) ||
-           (m.metallic_roughness && m.metallic_roughness->anisotropy.strength != 0.0);
+    return reads_textures(m) || has_grooves(m);
+}
+
+bool has_grooves(const Material& m) {
+    return m.metallic_roughness && m.metallic_roughness->anisotropy.strength != 0.0;
 }
 
 bool has_turned_grooves(const Material& m) {
-    if (!m.metallic_roughness) return false;
+    if (!has_grooves(m)) return false;
     const Grooves& grooves = m.metallic_roughness->anisotropy;
-    return grooves.strength != 0.0 && (grooves.rotation != 0.0 || grooves.texture != kNoTexture);
+    return grooves.rotation != 0.0 || grooves.texture != kNoTexture;
 }
 
 double channel_of(const Rgba& texel, Channel channel) {

@@ -17,6 +17,7 @@ namespace alhazen {
 [[nodiscard]] bool reads_textures(const Material& material);
 /// True if the material depends on texture coordinates or on their directions in the surface.
 [[nodiscard]] bool reads_coordinates(const Material& material);
+[[nodiscard]] bool has_grooves(const Material& material);
 /// True if its grooves are at an angle to the tangent: the BSDF depends on BsdfPlace::mirrored.
 [[nodiscard]] bool has_turned_grooves(const Material& material);
 

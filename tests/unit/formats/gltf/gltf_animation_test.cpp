@@ -133,6 +133,12 @@ TEST(GltfAnimation, ATimeForAFileWithoutAnimationsIsAWarning) {
     const Imported result =
         import_gltf(GltfText().file(R"("scenes": [{"nodes": [0]}], "nodes": [{}])"), options);
     EXPECT_TRUE(result.says("the file has no animations")) << result.messages();
+    const TemporaryFolder folder;
+    Diagnostics diagnostics;
+    (void)import_scene(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), options,
+                       diagnostics);
+    EXPECT_TRUE(mentions(diagnostics, "files of the format obj have no animations"))
+        << text_of(diagnostics);
 }
 
 }  // namespace

@@ -367,6 +367,9 @@ TEST(GltfDocument, ImagesMustBeWhatTheySay) {
                     .says("#/images/0: the JPEG data ends within its header"));
     EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/png;base64,/9j/4A=='}]")))
                     .says("#/images/0: the image is image/jpeg, declared as image/png"));
+    // Media types of URIs have no case.
+    EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/JPEG;base64,/9j/4A=='}]")))
+                    .says("#/images/0: the JPEG data ends within its header"));
 }
 
 TEST(GltfDocument, NormalsMustBeUnitButMayBeMissing) {

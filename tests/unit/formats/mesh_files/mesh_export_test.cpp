@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "alhazen/formats/mesh_files/mesh_export.h"
@@ -160,6 +161,31 @@ TEST(MeshExport, MirroredPlacementsKeepTheOutsideOutside) {
     const auto from_stl = read_stl(stl_bytes(both), "a.stl", {}, found);
     EXPECT_NEAR(signed_volume(from_stl.at(0).mesh), 3 * volume, 1e-5);
     EXPECT_EQ(text_of(found), "");
+}
+
+TEST(MeshExport, TangentsArePlacedIfAllMeshesHaveThem) {
+    TriangleMesh mesh = ball(1);
+    mesh.generate_normals();
+    mesh.tangents.assign(mesh.positions.size(), {0.6f, 0.8f, 0, 1});
+    const std::size_t n = mesh.positions.size();
+    const Affine mirror = Affine::translate({5, 0, 0}) * Affine::scale({-2, 1, 1});
+    std::vector<NamedMesh> meshes{{"moved", &mesh, Affine::translate({1, 2, 3}), ""},
+                                  {"mirrored", &mesh, mirror, ""}};
+    EXPECT_EQ(meshes_without_tangents(meshes), 0u);
+    Diagnostics found;
+    const TriangleMesh back = read_ply(ply_bytes(meshes), "a.ply", {}, found);
+    ASSERT_EQ(back.tangents.size(), 2 * n) << text_of(found);
+    for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_EQ(back.tangents[i], mesh.tangents[i]);
+        const VertexTangent& t = back.tangents[n + i];
+        EXPECT_NEAR(t.x, -1.2 / std::sqrt(1.44 + 0.64), 1e-6);
+        EXPECT_NEAR(t.y, 0.8 / std::sqrt(1.44 + 0.64), 1e-6);
+        EXPECT_EQ(t.sign, -1);
+    }
+    const TriangleMesh plain = ball(1);
+    meshes.push_back({"without", &plain, {}, ""});
+    EXPECT_EQ(meshes_without_tangents(meshes), 1u);
+    EXPECT_TRUE(read_ply(ply_bytes(meshes), "a.ply", {}, found).tangents.empty());
 }
 
 TEST(MeshExport, AFlatMeshAmongSmoothOnesStaysFlat) {

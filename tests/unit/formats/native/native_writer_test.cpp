@@ -179,6 +179,7 @@ TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
 std::shared_ptr<const StoredImage> picture(int channels, int kind) {
     Image image(3, 2, channels);
     image.linear = kind == 2;
+    image.associated = kind == 2 && channels % 2 == 0;
     for (std::size_t i = 0; i < image.samples.size(); ++i) {
         const float code = static_cast<float>(i * 7 % 255);
         image.samples[i] = kind == 0   ? code / 255.0F

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "support/light_pictures.h"
@@ -125,6 +128,58 @@ TEST(Grooves, OfThinSheetsScatterAlikeInBothDirections) {
             through += seen > 1e-3 && to_eye.z * to_light.z < 0;
         }
         EXPECT_GT(through, 50);
+    }
+}
+
+/// A square whose first set of coordinates has u along +x, the second u along +y.
+Scene with_two_sets(bool has_map, int map_set, const UvTransform& transform, int groove_set) {
+    TriangleMesh mesh = square(Frame::Coordinates);
+    mesh.uvs2 = {{0, 1}, {0, 0}, {1, 0}, {1, 1}};
+    SceneMaker maker;
+    const auto picture = [&](std::vector<float> texel, int set, const UvTransform& t) {
+        ImageTexture texture;
+        texture.image =
+            std::make_shared<const StoredImage>(StoredImage{1, 1, 3, true, std::move(texel)});
+        texture.decode_srgb = false;
+        texture.uv_set = set;
+        texture.uv_transform = t;
+        maker.description().textures.push_back({"", texture, {}});
+        return static_cast<TextureId>(maker.description().textures.size() - 1);
+    };
+    Material m = grooved(0.5, true);
+    if (has_map) m.normal_map.texture = picture({0.5f, 0.5f, 1}, map_set, transform);
+    if (groove_set >= 0) {
+        m.metallic_roughness->anisotropy.texture = picture({1, 0.5f, 1}, groove_set, {});
+    }
+    maker.add(maker.mesh(mesh), maker.material(m));
+    return maker.compile();
+}
+
+/// glTF takes missing tangents from the coordinates of the normal map.
+TEST(Grooves, WithoutTangentsFollowTheCoordinatesOfTheNormalMap) {
+    const Vec3 view = normalize(Vec3{0.3, 0.5, 0.8}), light = normalize(Vec3{-0.1, -0.45, 0.8});
+    const auto turned = [](const Vec3& v) { return Vec3{v.y, -v.x, v.z}; };  // +y to +x
+    const Scene plain = scene_of(Frame::Tangents, grooved(0.5, true));
+    const double along_x = value(plain, view, light);
+    const double along_y = value(plain, turned(view), turned(light));
+    ASSERT_GT(std::abs(along_x - along_y), 0.2 * along_x);
+    const UvTransform quarter{.uu = 0, .uv = 1, .vu = -1, .vv = 0};  // u' = v
+    struct Case {
+        const char* what;
+        bool has_map;
+        int map_set;
+        UvTransform transform;
+        int groove_set;
+        double expected;
+    };
+    for (const Case& c : {Case{"no map", false, 0, {}, -1, along_x},
+                          Case{"a map of the first set", true, 0, {}, -1, along_x},
+                          Case{"a map of the second set", true, 1, {}, -1, along_y},
+                          Case{"a map of the first set, turned", true, 0, quarter, -1, along_y},
+                          Case{"grooves of the second set", false, 0, {}, 1, along_x},
+                          Case{"grooves of the first set", true, 1, {}, 0, along_y}}) {
+        const Scene scene = with_two_sets(c.has_map, c.map_set, c.transform, c.groove_set);
+        expect_close(value(scene, view, light), c.expected, c.what);
     }
 }
 

@@ -235,7 +235,7 @@ TEST(PolygonCells, MostPointsOfAGearAreDecided) {
             ASSERT_GT(r, 0.89) << p.x << " " << p.y;
         }
     }
-    EXPECT_GT(decided, 0.8 * kPoints);
+    EXPECT_GT(decided, 0.95 * kPoints);
     EXPECT_LT(gear.cells->memory_bytes(), gear.vertices.size() * sizeof(Vec3));
 }
 

@@ -62,7 +62,7 @@ SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
 struct SpreadLanes {
     using Int4 = std::int32_t __attribute__((vector_size(16)));
     Float4 cost{kNever, kNever, kNever, kNever};
-    Int4 left{1, 1, 1, 1};
+    Int4 left{1, 1, 1, 1}, chosen;
 
     void offer(float left_cost, Float4 right_cost, int left_count) {
         const Float4 sum = left_cost + right_cost;
@@ -70,14 +70,41 @@ struct SpreadLanes {
         left = (better & left_count) | (~better & left);
         cost = lesser(sum, cost);
     }
-    void store(float* costs, std::uint32_t* lefts) const {
-        std::memcpy(costs, &cost, sizeof(cost));
-        std::memcpy(lefts, &left, sizeof(left));
+    /// Stores the least costs, where `before` are the costs of one subtree less; `chosen` is the
+    /// left number where it is better than these, else 0.
+    void choose(Float4 before, Float4 one, float* costs) {
+        chosen = left & (cost < one) & (cost < before);
+        const Float4 least = lesser(cost, one);
+        std::memcpy(costs, &least, sizeof(least));
     }
 };
 
+/// Sets the costs of an inner node of the binary tree from those of its children.
+template <std::uint32_t kWidth>
+ChoiceOf<kWidth> weigh(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r, float area,
+                       float as_leaf, CostsOf<kWidth>& costs) {
+    const SpreadOf<kWidth> spread = spread_of<kWidth>(l, r);
+    const float inner = area + spread.cost[kWidth - 1];
+    ChoiceOf<kWidth> choice;
+    choice.as_leaf = as_leaf <= inner && as_leaf < kNever;
+    choice.inner_left = static_cast<std::uint8_t>(spread.left[kWidth - 1]);
+    float least = std::min(as_leaf, inner);
+    costs[0] = least;
+    choice.lefts[0] = 0;
+    for (std::uint32_t i = 1; i < kWidth; ++i) {
+        const bool better = spread.cost[i] < least;
+        choice.lefts[i] = static_cast<std::uint8_t>(better ? spread.left[i] : 0);
+        least = better ? spread.cost[i] : least;
+        costs[i] = least;
+    }
+    return choice;
+}
+
+/// The same in lanes. The costs of a spread do not increase with the number of subtrees, as those
+/// of the children do not: the least one so far is that of the number before, or of one subtree.
 template <>
-SpreadOf<8> spread_of<8>(const CostsOf<8>& l, const CostsOf<8>& r) {
+ChoiceOf<8> weigh<8>(const CostsOf<8>& l, const CostsOf<8>& r, float area, float as_leaf,
+                     CostsOf<8>& costs) {
     const Float4 none{kNever, kNever, kNever, kNever};
     Float4 r0, r1;
     std::memcpy(&r0, r.data(), sizeof(r0));
@@ -97,10 +124,26 @@ SpreadOf<8> spread_of<8>(const CostsOf<8>& l, const CostsOf<8>& r) {
     high.offer(l[4], less1, 5);
     high.offer(l[5], less2, 6);
     high.offer(l[6], less3, 7);
-    SpreadOf<8> spread;
-    low.store(spread.cost.data(), spread.left.data());
-    high.store(spread.cost.data() + 4, spread.left.data() + 4);
-    return spread;
+    const float inner = area + high.cost[3];
+    const float one = std::min(as_leaf, inner);
+    const Float4 ones{one, one, one, one};
+    low.choose(__builtin_shufflevector(none, low.cost, 0, 4, 5, 6), ones, costs.data());
+    high.choose(__builtin_shufflevector(low.cost, high.cost, 3, 4, 5, 6), ones,
+                costs.data() + 4);
+    ChoiceOf<8> choice;
+    choice.as_leaf = as_leaf <= inner && as_leaf < kNever;
+    choice.inner_left = static_cast<std::uint8_t>(high.left[3]);
+#ifdef __SSE2__
+    const __m128i words = _mm_packs_epi32((__m128i)low.chosen, (__m128i)high.chosen);
+    const __m128i bytes = _mm_packus_epi16(words, words);
+    std::memcpy(choice.lefts.data(), &bytes, 8);
+#else
+    for (int i = 0; i < 4; ++i) {
+        choice.lefts[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(low.chosen[i]);
+        choice.lefts[static_cast<std::size_t>(i) + 4] = static_cast<std::uint8_t>(high.chosen[i]);
+    }
+#endif
+    return choice;
 }
 
 /// Numbers of nodes and blocks of a wide subtree, or their start indices.
@@ -143,6 +186,29 @@ struct Emitted {
 /// Visiting priority of a child, larger first: the probability of a hit over the cost.
 float visit_priority(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
+}
+
+/// The children from the largest promise to the least, those of equal ones in their order: by ranks,
+/// without branches.
+template <std::size_t Width>
+std::array<std::uint32_t, Width> by_promise(const std::array<float, Width>& promise,
+                                            std::uint32_t count) {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    std::array<std::uint32_t, Width> order{}, rank{};
+    for (std::size_t first = 0; first < count; first += 4) {
+        Float4 here;
+        std::memcpy(&here, promise.data() + first, sizeof(here));
+        const Int4 lane = Int4{0, 1, 2, 3} + static_cast<int>(first);
+        Int4 ranks{};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Float4 other = Float4{} + promise[i];
+            const Int4 before = Int4{} + static_cast<int>(i) < lane;
+            ranks -= (other > here) | ((other == here) & before);  // -1 where true
+        }
+        std::memcpy(rank.data() + first, &ranks, sizeof(ranks));
+    }
+    for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = i;
+    return order;
 }
 
 /// As WideNodeOf::set_order. Ranks the children of all octants at once, one octant per lane,
@@ -233,7 +299,10 @@ class WideCollapse {
         const float area = node.box.weight();
         const float as_leaf = leaf_cost(node, area);
         if (node.is_leaf()) {
-            costs.fill(as_leaf);
+            const Float4 four{as_leaf, as_leaf, as_leaf, as_leaf};
+            for (std::size_t i = 0; i < kWidth; i += 4) {
+                std::memcpy(costs.data() + i, &four, sizeof(four));
+            }
             choices_[index] = {{}, 0, true};
             return;
         }
@@ -245,7 +314,7 @@ class WideCollapse {
             choose(index + 1, of_left);
             choose(node.right, of_right);
         }
-        choices_[index] = weigh(of_left, of_right, area, as_leaf, costs);
+        choices_[index] = weigh<kWidth>(of_left, of_right, area, as_leaf, costs);
     }
 
     [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
@@ -254,25 +323,6 @@ class WideCollapse {
         const std::uint32_t blocks = kind.blocks(node.size());
         if (blocks > NodeRef::kMaxBlocks) return kNever;
         return area * kind.cost * static_cast<float>(blocks);
-    }
-
-    /// Sets the costs of an inner node of the binary tree.
-    static Choice weigh(const Costs& l, const Costs& r, float area, float as_leaf, Costs& costs) {
-        const SpreadOf<kWidth> spread = spread_of<kWidth>(l, r);
-        const float inner = area + spread.cost[kWidth - 1];
-        Choice choice;
-        choice.as_leaf = as_leaf <= inner && as_leaf < kNever;
-        choice.inner_left = static_cast<std::uint8_t>(spread.left[kWidth - 1]);
-        float least = std::min(as_leaf, inner);
-        costs[0] = least;
-        choice.lefts[0] = 0;
-        for (std::uint32_t i = 1; i < kWidth; ++i) {
-            const bool better = spread.cost[i] < least;
-            choice.lefts[i] = static_cast<std::uint8_t>(better ? spread.left[i] : 0);
-            least = better ? spread.cost[i] : least;
-            costs[i] = least;
-        }
-        return choice;
     }
 
     /// Appends the subtrees, at most `budget`, chosen for a subtree.
@@ -369,20 +419,14 @@ class WideCollapse {
     Emitted emit_node(std::size_t number, std::uint32_t index, const Children& all,
                       const std::array<Emitted, kWidth>& emitted) {
         Emitted sum{NodeRef::node(static_cast<std::uint32_t>(number)), 0, 0};
-        std::array<float, kWidth> promise;
-        std::array<std::uint32_t, kWidth> order;
+        std::array<float, kWidth> promise{};
         for (std::uint32_t i = 0; i < all.count; ++i) {
             const FloatBox& box = binary_.nodes[all.node[i]].box;
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
             promise[i] = visit_priority(emitted[i], box);
-            // Insertion sort, stable.
-            std::uint32_t place = i;
-            for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {
-                order[place] = order[place - 1];
-            }
-            order[place] = i;
         }
+        const auto order = by_promise(promise, all.count);
         sum.cost = 1.0f + sum.cost / binary_.nodes[index].box.weight();
         Node& node = nodes_[number];
         for (std::uint32_t slot = 0; slot < all.count; ++slot) {

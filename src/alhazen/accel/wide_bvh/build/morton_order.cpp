@@ -16,7 +16,7 @@ constexpr std::size_t kLeastForDigits = 1024;
 
 /// Parts of a pass over `size` entries. Few, because each counts all digits.
 std::size_t part_size(std::size_t size) {
-    return std::max<std::size_t>(8192, (size + 7) / 8);
+    return std::max<std::size_t>(16384, (size + 7) / 8);
 }
 
 /// One stable pass of a radix sort: parts are counted, then written, in parallel.

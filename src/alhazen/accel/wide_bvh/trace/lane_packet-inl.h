@@ -89,9 +89,10 @@ struct alignas(64) LanePacket {
         bool used;           ///< whether the set is one of them
         bool made;           ///< else nothing more is set: see make_pinhole
         float origin[3];
-        float middle[2], wide[2];  ///< a slope is the middle one and up to `wide` more or less
-        float least_step;          ///< the least reciprocal along the main axis, its magnitude
-        float most_off;            ///< what a sheared coordinate is off at most
+        float middle[2], wide[2];     ///< a slope is the middle one and up to `wide` more or less
+        float least_step, most_step;  ///< magnitudes of reciprocals along the main axis
+        float sure_min, sure_max;     ///< of all rays; if they differ, a range that holds nothing
+        float most_off;               ///< what a sheared coordinate is off at most
     };
     Pinhole pinhole;
 
@@ -411,6 +412,10 @@ inline void LanePacket::make_pinhole() {
     pinhole.origin[1] = origin[ky][first];
     pinhole.origin[2] = origin[kz][first];
     pinhole.least_step = std::abs(set_near_[kz]);
+    pinhole.most_step = std::abs(set_far_[kz]);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    pinhole.sure_min = one_start_ ? sure_min[0] : kInfinity;
+    pinhole.sure_max = one_start_ ? sure_max[0] : -kInfinity;
     pinhole.most_off = 1.1f / 5.12f * edge_slack;
 }
 

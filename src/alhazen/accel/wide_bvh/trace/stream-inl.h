@@ -36,8 +36,8 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Number of rays in flight.
-inline constexpr std::size_t kStreamSlots = 8;
+/// Number of rays in flight: of those that leave a packet, and of a batch.
+inline constexpr std::size_t kStreamSlots = 8, kBatchSlots = 24;
 
 /// Computes the address of a node or a leaf without a branch.
 class PrefetchTable {
@@ -77,8 +77,9 @@ class PrefetchTable {
     Place place_[16];
 };
 
+/// A ray in flight.
 template <class Query, std::size_t W>
-struct StreamSlot {
+struct StreamRay {
     alignas(64) std::byte place[sizeof(Query)];
     std::size_t height;
     NodeStack<W> stack;
@@ -86,6 +87,22 @@ struct StreamSlot {
     [[nodiscard]] HWY_INLINE Query& query() {
         return *std::launder(reinterpret_cast<Query*>(place));
     }
+    /// Places the root on the stack.
+    HWY_INLINE void begin(NodeRef root) {
+        stack.clear();
+        stack.entry[1] = -std::numeric_limits<float>::infinity();
+        stack.child[1] = root.bits();
+        height = 2;
+    }
+};
+/// Padded so that the first lines of neighbouring slots are spread over the sets of the first cache
+/// (64 on most processors): of each slot only the query and the bottom of the stack are in use.
+template <class Query, std::size_t W>
+struct StreamSlot : StreamRay<Query, W> {
+  private:
+    static constexpr std::size_t kLines = sizeof(StreamRay<Query, W>) / 64;
+    static constexpr std::size_t kSets = 64, kStep = 39;
+    [[maybe_unused]] std::byte gap_[64 * (1 + (kStep + kSets - 1 - kLines % kSets) % kSets)];
 };
 
 /// Visits one node or leaf of one ray; false if the ray is done.
@@ -126,18 +143,15 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
 template <class Query, std::size_t W, class Source, class Stats>
 HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, Source& source, Stats stats) {
-    StreamSlot<Query, W> slots[kStreamSlots];
-    StreamSlot<Query, W>* active[kStreamSlots];
+    StreamSlot<Query, W> slots[kBatchSlots];
+    StreamSlot<Query, W>* active[kBatchSlots];
     const auto start = [&](StreamSlot<Query, W>& slot) HWY_ATTR {
         if (!source.start(slot.place)) return false;
-        slot.stack.clear();
-        slot.stack.entry[1] = -std::numeric_limits<float>::infinity();
-        slot.stack.child[1] = root.bits();
-        slot.height = 2;
+        slot.begin(root);
         return true;
     };
     std::size_t count = 0;
-    while (count < kStreamSlots && start(slots[count])) {
+    while (count < kBatchSlots && start(slots[count])) {
         active[count] = &slots[count];
         ++count;
     }

@@ -17,6 +17,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
@@ -34,12 +35,19 @@ struct LaneStack {
     std::uint32_t lanes[kSize];
 };
 
-/// Puts the children that rays meet on the stack, and has them fetched; returns the new height. The
-/// nearest is on top, or slot 0.
+/// A subtree and the rays that meet it; without rays it is none.
+struct MetSubtree {
+    NodeRef ref = NodeRef::node(0);
+    std::uint32_t lanes = 0;
+    float entry = 0;
+};
+
+/// Finds the nearest child that rays meet, or slot 0, and puts the others on the stack, the next on
+/// top; returns the new height. All of them are fetched.
 template <bool kOrdered>
 HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, std::uint32_t lanes,
                                 LaneStack& stack, std::size_t height,
-                                const PrefetchTable& prefetch_table) {
+                                const PrefetchTable& prefetch_table, MetSubtree& nearest) {
     Floats entries;
     std::uint32_t hit = packet.intersect_boxes(node.planes, entries);
     if (hit == 0) return height;
@@ -53,17 +61,24 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, 
         const std::uint32_t met = lanes & slabs.meet(node, slot, packet);
         if (met == 0) continue;
         prefetch_table.prefetch(node.child[slot].bits());
+        MetSubtree other{node.child[slot], met, entry[slot]};
+        if (nearest.lanes == 0) {
+            nearest = other;
+            continue;
+        }
         std::size_t place = height++;
-        if constexpr (kOrdered) {
-            for (; place > base && stack.entry[place - 1] < entry[slot]; --place) {
+        if (!kOrdered || other.entry <= nearest.entry) {
+            std::swap(nearest, other);
+        } else {
+            for (; place > base && stack.entry[place - 1] < other.entry; --place) {
                 stack.entry[place] = stack.entry[place - 1];
                 stack.ref[place] = stack.ref[place - 1];
                 stack.lanes[place] = stack.lanes[place - 1];
             }
         }
-        stack.entry[place] = entry[slot];
-        stack.ref[place] = node.child[slot];
-        stack.lanes[place] = met;
+        stack.entry[place] = other.entry;
+        stack.ref[place] = other.ref;
+        stack.lanes[place] = other.lanes;
     }
     return height;
 }
@@ -88,7 +103,14 @@ HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
             const WideNode& node = nodes[ref.index()];
             stats.nodes(1);
             stats.boxes(node.child_count());
-            height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height, prefetch_table);
+            MetSubtree nearest;
+            height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height, prefetch_table,
+                                              nearest);
+            if (nearest.lanes != 0) {
+                lanes = nearest.lanes;
+                ref = nearest.ref;
+                continue;
+            }
         }
         do {
             if (height == 0) return;

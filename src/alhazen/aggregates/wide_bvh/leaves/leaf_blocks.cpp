@@ -20,7 +20,7 @@ namespace alhazen {
 namespace {
 
 /// Costs in visits of a wide node, from measurements.
-constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{3, 1.5f},
+constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{3, 3.0f},
                                    LeafKind{3, 1.5f}};
 static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
 static_assert(kBlockWidth == kCurveLeafSize);

@@ -88,12 +88,10 @@ class LaneWriter {
 
 #endif
 
-/// Writes a triangle that few rays come near; its hits are ignored by the lane's id.
 void leave_free(TriangleBlock& block, std::size_t lane) {
-    constexpr float kFar[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
     for (std::size_t corner = 0; corner < 3; ++corner) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            block.vertex[corner][axis][lane] = kFar[corner][axis];
+            block.vertex[corner][axis][lane] = kUnusedTriangle[corner][axis];
         }
     }
     block.ids[lane] = BlockId::none();

@@ -7,6 +7,10 @@
 
 namespace alhazen {
 
+/// [corner][axis] The triangle in an unused lane: few rays come near it, and its hits are ignored
+/// by the lane's id.
+inline constexpr float kUnusedTriangle[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
+
 /// A triangle to be written into a leaf.
 struct LeafTriangle {
     const Vec3* corner[3];

@@ -39,6 +39,19 @@ void LeafWriter::resize(const std::array<std::size_t, kLeafKinds>& blocks) {
     resize_blocks(layout_.others, blocks[static_cast<std::size_t>(LeafType::Others)]);
 }
 
+inline LeafTriangle LeafWriter::find(PrimitiveId id) const {
+    const PlacedMesh& placed = mesh_of(id);
+    const auto& numbers = corners(id, placed);
+    LeafTriangle found;
+    for (std::size_t k = 0; k < 3; ++k) {
+        found.corner[k] = placed.mesh->positions.data() + numbers[k];
+        __builtin_prefetch(found.corner[k]);
+    }
+    found.id = id;
+    found.opaque = is_opaque(id, placed);
+    return found;
+}
+
 float LeafWriter::write(LeafType type, std::size_t offset, std::span<const PrimitiveId> ids) const {
     const auto fill = [&](auto& blocks) {
         for_blocks(&blocks[offset], ids, [&](auto& block, std::span<const PrimitiveId> here) {

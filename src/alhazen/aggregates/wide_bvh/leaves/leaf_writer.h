@@ -23,8 +23,6 @@ class LeafWriter {
 
     [[nodiscard]] const PrimitiveTable& table() const { return table_; }
     [[nodiscard]] const LocalFrame& frame() const { return layout_.frame; }
-    /// The blocks of triangles; null with Leaves::Indices.
-    [[nodiscard]] const TriangleBlock* triangles() const { return triangles_; }
 
     /// Allocates the blocks.
     void resize(const std::array<std::size_t, kLeafKinds>& blocks);
@@ -32,36 +30,33 @@ class LeafWriter {
     /// at which any-hit queries end.
     float write(LeafType type, std::size_t offset, std::span<const PrimitiveId> ids) const;
 
+    /// The blocks of triangles with Leaves::Indices; else null.
+    [[nodiscard]] IndexBlock* index_blocks() const { return indices_; }
+    [[nodiscard]] TriangleBlock* triangle_blocks() const { return triangles_; }
+
     // ---- Triangles, which are scattered in memory, in steps.
-    void prefetch(PrimitiveId id) const {
-        const PlacedMesh& placed = mesh_of(id);
-        __builtin_prefetch(placed.mesh->triangles.data() + (index(id) - placed.first_triangle));
+    void prefetch(PrimitiveId id) const { __builtin_prefetch(&corners(id, mesh_of(id))); }
+    [[nodiscard]] const PlacedMesh& mesh_of(PrimitiveId id) const {
+        return only_ != nullptr ? *only_ : table_.mesh_of(index(id));
     }
-    /// Prefetches the corners.
-    [[nodiscard]] LeafTriangle find(PrimitiveId id) const {
-        const PlacedMesh& placed = mesh_of(id);
-        const TriangleMesh& mesh = *placed.mesh;
-        const auto& corners = mesh.triangles.data()[index(id) - placed.first_triangle];
-        LeafTriangle found;
-        for (std::size_t k = 0; k < 3; ++k) {
-            found.corner[k] = mesh.positions.data() + corners[k];
-            __builtin_prefetch(found.corner[k]);
-        }
-        found.id = id;
-        found.opaque =
-            mesh.vertex_materials.empty() ? is_opaque(placed.material) : table_.is_opaque(id);
-        return found;
+    /// The numbers of the corners in the mesh of a triangle.
+    [[nodiscard]] const std::array<std::uint32_t, 3>& corners(PrimitiveId id,
+                                                              const PlacedMesh& placed) const {
+        return placed.mesh->triangles.data()[index(id) - placed.first_triangle];
     }
-    void write_triangles(std::size_t offset, std::span<const LeafTriangle> triangles) const;
-    [[nodiscard]] float area_of(std::span<const LeafTriangle> triangles) const;
+    [[nodiscard]] bool is_opaque(PrimitiveId id, const PlacedMesh& placed) const {
+        return placed.mesh->vertex_materials.empty() ? is_opaque(placed.material)
+                                                     : table_.is_opaque(id);
+    }
 
   private:
     [[nodiscard]] std::uint32_t index(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) - first_;
     }
-    [[nodiscard]] const PlacedMesh& mesh_of(PrimitiveId id) const {
-        return only_ != nullptr ? *only_ : table_.mesh_of(index(id));
-    }
+    /// Prefetches the corners.
+    [[nodiscard]] LeafTriangle find(PrimitiveId id) const;
+    void write_triangles(std::size_t offset, std::span<const LeafTriangle> triangles) const;
+    [[nodiscard]] float area_of(std::span<const LeafTriangle> triangles) const;
     [[nodiscard]] bool is_opaque(MaterialId material) const {
         return table_.material_opacity[static_cast<std::uint32_t>(material)] == Opacity::Opaque;
     }

@@ -13,6 +13,7 @@ RecentOccluders::RecentOccluders() : block_{} {
 }
 
 void RecentOccluders::add(const BoxBlock& block, std::size_t lane) {
+    for (; (kept_ >> next_ & 1) != 0; next_ = (next_ + 1) % kBlockWidth) kept_ &= ~(1u << next_);
     const std::size_t to = next_;
     next_ = (next_ + 1) % kBlockWidth;
     for (std::size_t k = 0; k < 3; ++k) {

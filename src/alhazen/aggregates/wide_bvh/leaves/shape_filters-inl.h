@@ -140,7 +140,8 @@ HWY_INLINE AxisRows<F> minus_scaled(const AxisRows<F>& a, const F& s, const Axis
     return {neg_mul_add(s, b.x, a.x), neg_mul_add(s, b.y, a.y), neg_mul_add(s, b.z, a.z)};
 }
 
-/// The part of the ray within all bodies met so far, by its coordinate along the main axis.
+/// The part of the ray within all bodies met so far, by its coordinate along the main axis, or by
+/// its parameter where those of round bodies are (RoundLine).
 template <class F>
 struct Chord {
     F first, last;
@@ -151,57 +152,59 @@ template <class F>
 struct SlabLine {
     F middle, stretch;
 };
+/// `unit`: 1, or the parameter of a coordinate of 1 along the main axis.
 template <class F>
-HWY_INLINE SlabLine<F> line_in_slab(const F& along, const F& slope) {
+HWY_INLINE SlabLine<F> line_in_slab(const F& along, const F& slope, const F& unit) {
     const F steep = copysign(max_lanes(abs(slope), F(0x1p-40f)), slope);
-    const F inverse = F(1.0f) / steep;
+    const F inverse = unit / steep;
     return {-(along * inverse), abs(inverse)};
 }
 template <class F>
-HWY_INLINE void clip_to_slab(const SlabLine<F>& line, const F& half, Chord<F>& chord) {
+HWY_INLINE Chord<F> chord_in_slab(const SlabLine<F>& line, const F& half) {
     const F reach = half * line.stretch;
-    chord.first = max_lanes(chord.first, line.middle - reach);
-    chord.last = min_lanes(chord.last, line.middle + reach);
+    return {line.middle - reach, line.middle + reach};
 }
 template <class F>
-HWY_INLINE Chord<F> whole_line() {
-    return {F(-std::numeric_limits<float>::infinity()), F(std::numeric_limits<float>::infinity())};
+HWY_INLINE Chord<F> common_part(const Chord<F>& a, const Chord<F>& b) {
+    return {max_lanes(a.first, b.first), min_lanes(a.last, b.last)};
 }
 
 /// What is certainly in the range of a ray.
 template <class F>
 struct SureRange {
-    F sz, slack;  ///< of a coordinate along the main axis: its parameter, and the error of that
+    F slack;  ///< the error of a parameter
     F min, max;
 
+    /// A part of the ray that is certainly in the range.
+    [[nodiscard]] HWY_INLINE Chord<F> certain() const { return {min + slack, max - slack}; }
     /// The lanes whose part from `first` to `last` is in the range; `hi`: parameters not before it.
     HWY_INLINE auto holds(const F& first, const F& last, F& hi) const {
-        const F a = first * sz, b = last * sz;
-        hi = max_lanes(a, b) + slack;
-        return (min_lanes(a, b) - slack >= min) & (hi <= max);
+        hi = last + slack;
+        return (first - slack >= min) & (hi <= max);
     }
 };
 template <class In>
 HWY_INLINE SureRange<typename In::F> sure_range(const In& in) {
-    return {in.number([](const auto& at) HWY_ATTR { return at.ray.sz; }),
-            in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; }),
+    return {in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; }),
             in.number([](const auto& at) HWY_ATTR { return at.ray.sure_min; }),
             in.number([](const auto& at) HWY_ATTR { return at.ray.sure_max; })};
 }
 
 /// Bits of the lanes whose chord is not empty and overlaps the range of the ray.
 template <class In>
-HWY_INLINE std::uint32_t finish_filter(const In& in, const Chord<typename In::F>& chord) {
+HWY_INLINE std::uint32_t finish_filter(const In& in, const Chord<typename In::F>& parameters) {
     using F = typename In::F;
-    const F sz = in.number([](const auto& at) HWY_ATTR { return at.ray.sz; });
     const F slack = in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; });
-    const F a = chord.first * sz, b = chord.last * sz;
-    const F lo = min_lanes(a, b) - slack, hi = max_lanes(a, b) + slack;
+    const F lo = parameters.first - slack, hi = parameters.last + slack;
     in.set_lo(lo);
     const F s_min = in.number([](const auto& at) HWY_ATTR { return at.s_min; });
     const F s_max = in.number([](const auto& at) HWY_ATTR { return at.s_max; });
     return in.bits([](const auto&) HWY_ATTR { return kAllLanes; }) &
-           ~bits_of((chord.first > chord.last) | (lo > s_max) | (hi < s_min));
+           ~bits_of((parameters.first > parameters.last) | (lo > s_max) | (hi < s_min));
+}
+template <class In>
+HWY_INLINE typename In::F parameter_unit(const In& in) {
+    return in.number([](const auto& at) HWY_ATTR { return at.ray.sz; });
 }
 
 /// Passes all lanes, from any parameter, for a ray out of the range of float.
@@ -212,17 +215,19 @@ HWY_INLINE bool passes_all(const TriangleFilterRay& ray, FilteredShapes& out) {
     return true;
 }
 
-/// A line that passes round bodies around 0. Its distance is that of its moment, which needs no
-/// division: all else waits for less.
+/// A line that passes round bodies around 0, by its parameters. Its distance is that of its moment,
+/// which needs no division: all else waits for less.
 template <class F>
 struct RoundLine {
-    F squared, inverse;  ///< its slope, squared, and one over that
-    F middle;            ///< where it is nearest to 0
-    F moment;            ///< its distance there times its slope, squared
+    F squared;   ///< its slope, squared
+    F quotient;  ///< the parameter of a coordinate of 1 along the main axis over that
+    F middle;    ///< where it is nearest to 0
+    F moment;    ///< its distance there times its slope, squared
 
-    HWY_INLINE RoundLine(const AxisRows<F>& from, const AxisRows<F>& slope)
-        : squared(max_lanes(dot_rows(slope, slope), F(0x1p-60f))), inverse(F(1.0f) / squared) {
-        middle = -(dot_rows(from, slope) * inverse);
+    HWY_INLINE RoundLine(const AxisRows<F>& from, const AxisRows<F>& slope, const F& unit)
+        : squared(max_lanes(dot_rows(slope, slope), F(0x1p-60f))), quotient(unit / squared) {
+        middle = -(dot_rows(from, slope) * quotient);
+        quotient = abs(quotient);
         const AxisRows<F> turn{mul_sub(from.y, slope.z, from.z * slope.y),
                                mul_sub(from.z, slope.x, from.x * slope.z),
                                mul_sub(from.x, slope.y, from.y * slope.x)};
@@ -231,7 +236,7 @@ struct RoundLine {
     /// Half the chord in a circle or a sphere times the slope, squared; negative if that is missed.
     HWY_INLINE F room(const F& radius) const { return mul_sub(radius * radius, squared, moment); }
     /// Half the chord.
-    HWY_INLINE F half(const F& room) const { return sqrt(max_lanes(room, F(0.0f))) * inverse; }
+    HWY_INLINE F half(const F& room) const { return sqrt(max_lanes(room, F(0.0f))) * quotient; }
     /// The chord in a circle or a sphere, and which lanes miss it.
     HWY_INLINE Chord<F> chord(const F& radius, std::uint32_t& missed) const {
         const F left = room(radius);
@@ -240,20 +245,25 @@ struct RoundLine {
         return {middle - reach, middle + reach};
     }
     /// The lanes that cross a circle or sphere between `narrow` and the radius of `outer` for
-    /// certain, in the range and in `within`. `hi`: as in FilteredShapes.
-    HWY_INLINE auto sure(const Chord<F>& outer, const F& narrow, const Chord<F>& within,
-                         const SureRange<F>& range, F& hi) const {
+    /// certain, in the range. `hi`: as in FilteredShapes.
+    HWY_INLINE auto sure(const Chord<F>& outer, const F& narrow, const SureRange<F>& range,
+                         F& hi) const {
         const F left = room(narrow), reach = half(left);
-        const F in = middle - reach, out = middle + reach;
         const F never(std::numeric_limits<float>::infinity());
         F hi_in, hi_out;
         const auto inside = (left > F(0.0f)) & (narrow > F(0.0f));
-        const auto enters = inside & range.holds(outer.first, in, hi_in) &
-                            (within.first <= outer.first) & (in <= within.last);
-        const auto leaves = inside & range.holds(out, outer.last, hi_out) & (within.first <= out) &
-                            (outer.last <= within.last);
+        const auto enters = inside & range.holds(outer.first, middle - reach, hi_in);
+        const auto leaves = inside & range.holds(middle + reach, outer.last, hi_out);
         hi = min_lanes(select_lanes(enters, hi_in, never), select_lanes(leaves, hi_out, never));
         return enters | leaves;
+    }
+    /// Those that enter it, in `within`, which is in the range.
+    HWY_INLINE auto surely_enters(const Chord<F>& outer, const F& narrow, const Chord<F>& within,
+                                  const SureRange<F>& range, F& hi) const {
+        const F left = room(narrow), in = middle - half(left);
+        hi = in + range.slack;
+        return (left > F(0.0f)) & (narrow > F(0.0f)) & (within.first <= outer.first) &
+               (in <= within.last);
     }
 };
 
@@ -267,15 +277,15 @@ HWY_INLINE std::uint32_t filter_shapes(const In<SphereBlock>& in) {
         in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
     const F slack =
         in.number([](const auto& at) HWY_ATTR { return kRoundSlack * at.ray.edge_slack; });
-    const RoundLine<F> line(from_center(in), slopes_of(in));
+    const RoundLine<F> line(from_center(in), slopes_of(in), parameter_unit(in));
     std::uint32_t missed;
     const Chord<F> chord = line.chord(radius + slack, missed);
     if (!kAtOnce && (lanes & ~missed) == 0) return 0;
     const std::uint32_t met = lanes & ~missed & finish_filter(in, chord);
     if (!kAtOnce && met == 0) return 0;
     F hi;
-    const std::uint32_t sure = met & bits_of(line.sure(chord, radius - slack - slack,
-                                                       whole_line<F>(), sure_range(in), hi));
+    const std::uint32_t sure =
+        met & bits_of(line.sure(chord, radius - slack - slack, sure_range(in), hi));
     in.set_sure(sure, hi);
     return met;
 }
@@ -287,17 +297,17 @@ struct CylinderLine {
     RoundLine<F> round;
 
     HWY_INLINE CylinderLine(const AxisRows<F>& from, const AxisRows<F>& slope,
-                            const AxisRows<F>& axis)
+                            const AxisRows<F>& axis, const F& unit)
         : along(dot_rows(axis, from)),
           climb(dot_rows(axis, slope)),
-          round(minus_scaled(from, along, axis), minus_scaled(slope, climb, axis)) {}
-    /// The lanes that cross the side of the cylinder for certain, between its ends and in the
-    /// range. `side`: the chord in the wider one.
+          round(minus_scaled(from, along, axis), minus_scaled(slope, climb, axis), unit) {}
+    /// The lanes that enter the cylinder through its side for certain, between its ends and in the
+    /// range. `side`: the chord in the wider one. Few rays only leave through it.
     HWY_INLINE auto sure(const Chord<F>& side, const SlabLine<F>& slab, const F& half_height,
                          const F& radius, const F& slack, const SureRange<F>& range, F& hi) const {
-        Chord<F> between = whole_line<F>();
-        clip_to_slab(slab, half_height - slack - slack, between);
-        return round.sure(side, radius - slack - slack, between, range, hi);
+        const Chord<F> between =
+            common_part(range.certain(), chord_in_slab(slab, half_height - slack - slack));
+        return round.surely_enters(side, radius - slack - slack, between, range, hi);
     }
 };
 
@@ -307,10 +317,12 @@ HWY_INLINE std::uint32_t filter_shapes(const In<FrustumBlock>& in) {
     const std::uint32_t lanes = in.bits([](const auto& block) HWY_ATTR { return block.lanes; });
     const F slack =
         in.number([](const auto& at) HWY_ATTR { return kRoundSlack * at.ray.edge_slack; });
+    const F unit = parameter_unit(in);
     const CylinderLine<F> line(
         from_center(in), slopes_of(in),
         axis_rows(
-            in, [](const auto& block) HWY_ATTR -> const auto& { return block.axis; }));
+            in, [](const auto& block) HWY_ATTR -> const auto& { return block.axis; }),
+        unit);
     const F radius =
         in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
     const F half_height = in.row([](const auto& block, const auto&)
@@ -318,9 +330,8 @@ HWY_INLINE std::uint32_t filter_shapes(const In<FrustumBlock>& in) {
     std::uint32_t missed;
     const Chord<F> side = line.round.chord(radius + slack, missed);
     if (!kAtOnce && (lanes & ~missed) == 0) return 0;
-    const SlabLine<F> slab = line_in_slab(line.along, line.climb);
-    Chord<F> chord = side;
-    clip_to_slab(slab, half_height + slack, chord);
+    const SlabLine<F> slab = line_in_slab(line.along, line.climb, unit);
+    const Chord<F> chord = common_part(side, chord_in_slab(slab, half_height + slack));
     const std::uint32_t met = lanes & ~missed & finish_filter(in, chord);
     const std::uint32_t certain =
         met & in.bits([](const auto& block) HWY_ATTR { return block.certain; });
@@ -347,7 +358,7 @@ struct BoxLine {
         for (std::size_t k = 0; k < 3; ++k) {
             along[k] = dot_rows(direction[k], from);
             climb[k] = dot_rows(direction[k], slope);
-            slab[k] = line_in_slab(along[k], climb[k]);
+            slab[k] = line_in_slab(along[k], climb[k], F(1.0f));
         }
     }
     /// The squared distance from the axis across the first two slabs, where the line is in the
@@ -363,29 +374,29 @@ struct BoxLine {
     /// The chord in the box; of flat shapes, if it is not empty, that in the third slab, where
     /// their plane is met.
     HWY_INLINE Chord<F> chord(const F (&half)[3], const F& inset) const {
-        Chord<F> across = whole_line<F>();
-        clip_to_slab(slab[2], half[2], across);
-        Chord<F> chord = across;
-        clip_to_slab(slab[0], half[0], chord);
-        clip_to_slab(slab[1], half[1], chord);
+        const Chord<F> across = chord_in_slab(slab[2], half[2]);
+        const Chord<F> aside =
+            common_part(chord_in_slab(slab[0], half[0]), chord_in_slab(slab[1], half[1]));
+        const Chord<F> chord = common_part(across, aside);
         const auto plane = (inset < F(BoxBlock::kNotFlat)) & (chord.first <= chord.last);
         return {select_lanes(plane, across.first, chord.first),
                 select_lanes(plane, across.last, chord.last)};
     }
     /// The lanes that cross the third slab within the narrower ones of the first two for certain,
-    /// or within a narrower disc (BoxBlock::inset), in the range. `half` includes the slack.
+    /// or within a narrower disc (BoxBlock::inset), in the range. `half` includes the slack;
+    /// `parameters`: of the chord in the third slab.
     HWY_INLINE auto sure(const F (&half)[3], const F& inset, const F& slack, const F& off,
-                         const F& spread, const SureRange<F>& range, F& hi) const {
+                         const F& spread, const Chord<F>& parameters, const SureRange<F>& range,
+                         F& hi) const {
         const F less = slack + slack + inset;
-        Chord<F> within = whole_line<F>(), flat = whole_line<F>();
-        clip_to_slab(slab[0], half[0] - less, within);
-        clip_to_slab(slab[1], half[1] - less, within);
-        clip_to_slab(slab[2], half[2], flat);
+        const Chord<F> within = common_part(chord_in_slab(slab[0], half[0] - less),
+                                            chord_in_slab(slab[1], half[1] - less));
+        const Chord<F> flat = chord_in_slab(slab[2], half[2]);
         const F room = -(inset + slack + slack + spread);  // of a disc, whose radius is -inset
         const auto in_rectangle =
             (inset >= F(0.0f)) & (within.first <= flat.first) & (flat.last <= within.last);
         const auto in_disc = (room > F(0.0f)) & (off <= room * room);
-        return (in_rectangle | in_disc) & range.holds(flat.first, flat.last, hi);
+        return (in_rectangle | in_disc) & range.holds(parameters.first, parameters.last, hi);
     }
 };
 
@@ -417,13 +428,17 @@ HWY_INLINE std::uint32_t filter_shapes(const In<BoxBlock>& in) {
         in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.inset; });
     const F radius =
         in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
-    std::uint32_t met = finish_filter(in, line.chord(half, inset));
+    const Chord<F> chord = line.chord(half, inset);
+    const F unit = parameter_unit(in), a = chord.first * unit, b = chord.last * unit;
+    // Where the chord is empty, NaN among others, it is in parameters, too.
+    const Chord<F> parameters{min_lanes(a, b), max_lanes(a, b)};
+    std::uint32_t met = finish_filter(in, parameters) & ~bits_of(chord.first > chord.last);
     if (!kAtOnce && met == 0) return 0;
     const F off = line.off_axis(), spread = line.spread(half[2]);
     met &= ~bits_of(outside_ball(off, spread, radius + slack + slack, inset));
     F hi;
     const std::uint32_t sure =
-        met & bits_of(line.sure(half, inset, slack, off, spread, sure_range(in), hi));
+        met & bits_of(line.sure(half, inset, slack, off, spread, parameters, sure_range(in), hi));
     in.set_sure(sure, hi);
     return met;
 }

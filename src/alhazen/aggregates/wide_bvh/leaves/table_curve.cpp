@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
-#include "alhazen/aggregates/wide_bvh/leaves/triangle_references.h"
 #include "alhazen/base/interruption.h"
 
 namespace alhazen {
@@ -11,41 +10,31 @@ namespace {
 
 constexpr auto kTriangles = static_cast<std::uint32_t>(LeafType::Triangles);
 
-/// Centers of the boxes of triangles in the frame of a tree.
-class TriangleCenters {
-  public:
-    explicit TriangleCenters(const LocalFrame& frame) {
-        const double half = 0.5 * frame.scale;
-        scale_ = Double2{half, half};
-        const Vec3 center = frame.scale * frame.center;
-        center_ = Double2{center.x, center.y};
-        deep_ = center.z;
-    }
-    [[nodiscard]] Float4 operator()(const Vec3& a, const Vec3& b, const Vec3& c) const {
-        const PointLanes p(a), q(b), r(c);
-        const Double2 lower = lesser(lesser(p.xy, q.xy), r.xy);
-        const Double2 upper = greater(greater(p.xy, q.xy), r.xy);
-        const double near = std::min(std::min(p.z, q.z), r.z);
-        const double far = std::max(std::max(p.z, q.z), r.z);
-        const Double2 across = scale_ * (lower + upper) - center_;
-        const double deep = scale_[0] * (near + far) - deep_;
-        return Float4{static_cast<float>(across[0]), static_cast<float>(across[1]),
-                      static_cast<float>(deep), 0.0f};
-    }
-
-  private:
-    Double2 scale_, center_;
-    double deep_;
-};
-
 }  // namespace
 
 TableCurve::TableCurve(const BoundedPrimitives& bounded, LeafWriter& writer)
-    : bounded_(bounded), writer_(writer), only_triangles_(false) {
+    : bounded_(bounded),
+      writer_(writer),
+      vertices_(writer.table(), writer.frame()),
+      only_triangles_(false) {
     if (bounded.size() == 0) return;
     const PrimitiveTable& table = writer.table();
     only_triangles_ = bounded.id(0) >= table.first(kTriangleKind) &&
                       bounded.id(bounded.size() - 1) < table.first(kInstanceKind);
+}
+
+TableCurve::MeshView TableCurve::view(PrimitiveId id) const {
+    const PlacedMesh& placed = writer_.mesh_of(id);
+    const TriangleMesh& mesh = *placed.mesh;
+    const bool same = mesh.vertex_materials.empty();
+    const std::array<std::uint32_t, 3>* const own = &writer_.corners(id, placed);
+    const auto place = static_cast<std::uint32_t>(own - mesh.triangles.data());
+    return {mesh.triangles.data(), static_cast<std::uint32_t>(id) - place, first_vertex(placed),
+            same && writer_.is_opaque(id, placed), same};
+}
+
+std::uint32_t TableCurve::first_vertex(const PlacedMesh& placed) const {
+    return vertices_.first(static_cast<std::size_t>(&placed - writer_.table().meshes.data()));
 }
 
 std::uint32_t TableCurve::common_kind() const {
@@ -59,7 +48,6 @@ std::uint32_t TableCurve::kind(std::uint32_t index) const {
 void TableCurve::centers(std::uint32_t begin, std::uint32_t end, Float4* to) const {
     interruption_point();
     const PrimitiveTable& table = writer_.table();
-    const TriangleCenters center(writer_.frame());
     const bool all = bounded_.size() == table.size();
     const std::uint32_t first = all ? std::clamp(table.first(kTriangleKind), begin, end) : end;
     const std::uint32_t last = all ? std::clamp(table.first(kInstanceKind), begin, end) : end;
@@ -71,11 +59,26 @@ void TableCurve::centers(std::uint32_t begin, std::uint32_t end, Float4* to) con
         }
     };
     others(begin, first);
-    for_triangles(table, first, last,
-                  [&](std::uint32_t id, const Vec3& a, const Vec3& b, const Vec3& c) {
-                      to[id - begin] = center(a, b, c);
-                  });
+    triangle_centers(first, last, to + (first - begin));
     others(last, end);
+}
+
+void TableCurve::triangle_centers(std::uint32_t begin, std::uint32_t end, Float4* to) const {
+    constexpr Float4 kHalf{0.5f, 0.5f, 0.5f, 0.0f};
+    for (std::uint32_t id = begin; id < end;) {
+        const PlacedMesh& placed = writer_.mesh_of(PrimitiveId{id});
+        const auto* const first = &writer_.corners(PrimitiveId{id}, placed);
+        const auto* const last = placed.mesh->triangles.data() + placed.mesh->triangles.size();
+        const auto count = std::min(end - id, static_cast<std::uint32_t>(last - first));
+        const Float4* const vertices = &vertices_[first_vertex(placed)];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto& corners = first[i];
+            const Float4 a = vertices[corners[0]], b = vertices[corners[1]],
+                         c = vertices[corners[2]];
+            *to++ = kHalf * (lesser(lesser(a, b), c) + greater(greater(a, b), c));
+        }
+        id += count;
+    }
 }
 
 void TableCurve::fill(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
@@ -99,35 +102,53 @@ void TableCurve::fill(std::span<const CurveLeaf> leaves, const std::uint32_t* in
 void TableCurve::fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
                                 std::uint32_t first, BuildReference* boxes, float* areas) const {
     constexpr std::size_t kAhead = 4;  // leaves
-    const TriangleReferences to_box(writer_.frame());
-    LeafTriangle triangles[kAhead][kBlockWidth];
-    const auto for_ids = [&](std::size_t i, const auto& f) {
+    const bool several = writer_.table().meshes.size() > 1;
+    const MeshView only = view(PrimitiveId{bounded_.id(indices[leaves[0].first])});
+    const auto view_of = [&](PrimitiveId id) { return several ? view(id) : only; };
+    LaneTriangles triangles[kAhead];
+    const auto prefetch = [&](std::size_t i) {
         if (i >= leaves.size()) return;
         const std::uint32_t* const its = indices + leaves[i].first;
-        for (std::uint32_t k = 0; k < leaves[i].count; ++k) f(k, PrimitiveId{bounded_.id(its[k])});
-    };
-    const auto prefetch = [&](std::size_t i) {
-        for_ids(i, [&](std::uint32_t, PrimitiveId id) { writer_.prefetch(id); });
+        for (std::uint32_t k = 0; k < leaves[i].count; ++k) {
+            const PrimitiveId id{bounded_.id(its[k])};
+            __builtin_prefetch(&view_of(id).corners(id));
+        }
     };
     const auto find = [&](std::size_t i) {
-        for_ids(i, [&](std::uint32_t k, PrimitiveId id) {
-            triangles[i % kAhead][k] = writer_.find(id);
-        });
+        if (i >= leaves.size()) return;
+        LaneTriangles& found = triangles[i % kAhead];
+        const std::uint32_t* const its = indices + leaves[i].first;
+        found.count = leaves[i].count;
+        std::uint32_t k = 0;
+        for (; k < leaves[i].count; ++k) {
+            const PrimitiveId id{bounded_.id(its[k])};
+            const MeshView mesh = view_of(id);
+            const auto& corners = mesh.corners(id);
+            for (std::size_t c = 0; c < 3; ++c) {
+                found.corner[c][k] = mesh.first_vertex + corners[c];
+                __builtin_prefetch(&vertices_[found.corner[c][k]]);
+            }
+            found.ids[k] = {id, mesh.same ? mesh.opaque : writer_.table().is_opaque(id), false};
+        }
+        for (; k < kBlockWidth; ++k) {
+            for (std::uint32_t c = 0; c < 3; ++c) found.corner[c][k] = vertices_.unused() + c;
+            found.ids[k] = BlockId::none();
+        }
     };
+    TriangleBlock* const blocks = writer_.triangle_blocks();
     for (std::size_t i = 0; i + 1 < 2 * kAhead; ++i) prefetch(i);
     for (std::size_t i = 0; i + 1 < kAhead; ++i) find(i);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         prefetch(i + 2 * kAhead - 1);
         find(i + kAhead - 1);
-        const std::span<const LeafTriangle> here(triangles[i % kAhead], leaves[i].count);
-        TriangleBounds bounds;
-        for (const LeafTriangle& triangle : here) {
-            for (const Vec3* corner : triangle.corner) bounds.include(PointLanes(*corner));
+        const LaneTriangles& here = triangles[i % kAhead];
+        boxes[i] = {vertices_.box(here).box(), static_cast<std::uint32_t>(first + i), kTriangles};
+        if (blocks == nullptr) {
+            std::copy_n(here.ids, kBlockWidth, writer_.index_blocks()[leaves[i].offset].ids);
+            areas[i] = vertices_.area(here);
+        } else {
+            areas[i] = vertices_.fill(blocks[leaves[i].offset], here);
         }
-        bounds.pad();
-        to_box(bounds, static_cast<std::uint32_t>(first + i), boxes[i]);
-        writer_.write_triangles(leaves[i].offset, here);
-        areas[i] = writer_.area_of(here);
     }
 }
 

@@ -2,11 +2,12 @@
 /// The bounded primitives of a table for the builder along a curve, and the leaves of a layout that
 /// they are put into.
 ///
-/// Differs from the leaves of other builders: a leaf has one box, made of the vertices in double
-/// and rounded once.
+/// Differs from the leaves of other builders: the vertices of meshes are rounded first, and the
+/// boxes of leaves are made of the rounded ones, a few steps larger.
 
 #include "alhazen/accel/wide_bvh/build/curve_builder.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_writer.h"
+#include "alhazen/aggregates/wide_bvh/leaves/local_vertices.h"
 #include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
@@ -29,6 +30,20 @@ class TableCurve final : public CurvePrimitives {
               BuildReference* boxes, float* areas) const override;
 
   private:
+    /// A mesh of the table.
+    struct MeshView {
+        /// The corners of triangle `first` and those after it.
+        const std::array<std::uint32_t, 3>* triangles;
+        std::uint32_t first, first_vertex;
+        bool opaque, same;  ///< opaque where all triangles are the same
+
+        [[nodiscard]] const std::array<std::uint32_t, 3>& corners(PrimitiveId id) const {
+            return triangles[static_cast<std::uint32_t>(id) - first];
+        }
+    };
+    [[nodiscard]] MeshView view(PrimitiveId id) const;
+    [[nodiscard]] std::uint32_t first_vertex(const PlacedMesh& placed) const;
+    void triangle_centers(std::uint32_t begin, std::uint32_t end, Float4* to) const;
     void fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
                         std::uint32_t first, BuildReference* boxes, float* areas) const;
     void fill_shapes(const CurveLeaf& leaf, const std::uint32_t* indices, std::uint32_t number,
@@ -36,6 +51,7 @@ class TableCurve final : public CurvePrimitives {
 
     const BoundedPrimitives& bounded_;
     LeafWriter& writer_;
+    LocalVertices vertices_;
     bool only_triangles_;
 };
 

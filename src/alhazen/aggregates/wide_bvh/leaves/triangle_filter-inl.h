@@ -89,6 +89,7 @@ HWY_INLINE Floats edge_of(const Corner& a, const Corner& b) {
 }
 
 /// False if no triangle of the block is hit up to `s_max`; then `out` is not set.
+template <bool kAtOnce = false>
 HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
                                  float s_min, float s_max, FilteredTriangles& out) {
     const ShearedCorners sheared = sheared_corners(block, ray);
@@ -100,7 +101,7 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats least = min_lanes(min_lanes(eu, ev), ew);
     const Floats most = max_lanes(max_lanes(eu, ev), ew);
     std::uint32_t candidates = kAllLanes & ~bits_of((least < -error) & (most > error));
-    if (candidates == 0) return false;
+    if (!kAtOnce && candidates == 0) return false;
 
     // Few blocks reach this point, where the distance of the triangles tightens the bound.
     const Floats depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
@@ -120,7 +121,7 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats lo = s - slack, hi = s + slack;
     candidates &=
         ~bits_of(((least < -fine) & (most > fine)) | (lo > Floats(s_max)) | (hi < Floats(s_min)));
-    if (candidates == 0) return false;
+    if (!kAtOnce && candidates == 0) return false;
     out.candidates = candidates;
     out.sure = candidates & bits_of(((least > fine) | (most < -fine)) &
                                     (lo >= Floats(ray.sure_min)) & (hi <= Floats(ray.sure_max)));

@@ -141,10 +141,10 @@ class PrimitiveChecker {
         const Material& material = document_.materials[*primitive_.material];
         const auto lacks = [&](const char* name) { return primitive_.attributes.count(name) == 0; };
         if (material.anisotropy > 0 && lacks("TANGENT") && lacks("TEXCOORD_0") &&
-            lacks("TEXCOORD_1")) {
+            !material.normal_texture) {
             loading_.warning(place_ + "/material",
                              "the material is anisotropic, and the primitive has no tangents and "
-                             "no texture coordinates; its directions are arbitrary");
+                             "no TEXCOORD_0; its directions are arbitrary");
         }
         for (const auto* info :
              {&material.base_color_texture, &material.metallic_roughness_texture,

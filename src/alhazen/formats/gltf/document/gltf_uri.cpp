@@ -114,6 +114,7 @@ std::optional<DataUri> read_data_uri(std::string_view uri) {
     // Parameters of the form name=value follow the media type.
     std::size_t start = head.find(';');
     result.media_type = std::string(head.substr(0, start));
+    for (char& c : result.media_type) c = lower(c);
     while (start != std::string_view::npos) {
         const std::size_t end = head.find(';', start + 1);
         const std::string_view parameter = head.substr(start + 1, end - start - 1);

@@ -22,7 +22,7 @@ namespace alhazen::gltf {
 [[nodiscard]] std::optional<std::string> base64_decoded(std::string_view text);
 
 struct DataUri {
-    std::string media_type;  ///< "image/png"; may be empty
+    std::string media_type;  ///< "image/png", in lower case; may be empty
     std::string bytes;
 };
 /// Decodes a data: URI; none if it is malformed or not base64.

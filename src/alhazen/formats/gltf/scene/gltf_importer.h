@@ -14,6 +14,7 @@ class GltfImporter final : public Importer {
     [[nodiscard]] const char* name() const override { return "gltf"; }
     [[nodiscard]] const char* description() const override;
     [[nodiscard]] int recognise(const ImportSource& source) const override;
+    [[nodiscard]] bool applies_animations() const override { return true; }
     [[nodiscard]] SceneDescription import(const ImportSource& source,
                                           Diagnostics& diagnostics) const override;
 };

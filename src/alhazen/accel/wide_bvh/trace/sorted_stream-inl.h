@@ -1,0 +1,192 @@
+/// The stream of rays for closest hits: as stream-inl.h, but rays wait in lists by what they do
+/// next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
+///
+/// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015;
+/// Tsakok, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing", HPG 2009 (rays of a stream
+/// sorted by their next step).
+/// Differs: each ray has a stack of its own and visits its children nearest first.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Query` and `Source` are those of
+/// stream-inl.h; `Query` has `visit_later`, `settle` and `waits()`, which is true if `settle` has
+/// anything to do.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/trace/stream-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// What a ray does next.
+enum class NextStep : std::uint8_t { Node, Leaf, Settle, Finish };
+
+/// [whether a leaf is to be settled] [first four bits of the next subtree] the next step.
+inline constexpr auto kNextSteps = [] {
+    std::array<std::array<NextStep, 16>, 2> next{};
+    for (std::size_t bits = 0; bits < 16; ++bits) {
+        next[0][bits] = bits < 8 ? NextStep::Node : NextStep::Leaf;
+        next[1][bits] = NextStep::Settle;
+    }
+    next[0][15] = NextStep::Finish;  // NodeRef::none()
+    return next;
+}();
+
+/// The lists of the rays in flight, by their next step.
+template <class Slot, std::size_t kSlots>
+class StepLists {
+  public:
+    StepLists() = default;
+    StepLists(const StepLists&) = delete;
+    StepLists& operator=(const StepLists&) = delete;
+
+    HWY_INLINE void add(NextStep step, Slot& slot) { *end_[index(step)]++ = &slot; }
+    [[nodiscard]] HWY_INLINE std::size_t count(NextStep step) const {
+        return static_cast<std::size_t>(end_[index(step)] - begin_[index(step)]);
+    }
+    /// Calls f(slot) for the rays that are in the list now, and removes them.
+    template <class F>
+    HWY_INLINE void take(NextStep step, F&& f) {
+        // f may add to the list: nothing is copied, for what was stored slot by slot would be
+        // waited for where it is loaded several at a time.
+        Slot** const taken = begin_[index(step)];
+        Slot** const end = end_[index(step)];
+        begin_[index(step)] = end_[index(step)] = spare_;
+        spare_ = taken;
+        for (Slot** slot = taken; slot != end; ++slot) f(**slot);
+    }
+
+  private:
+    static constexpr std::size_t kSteps = 4;
+    static HWY_INLINE std::size_t index(NextStep step) { return static_cast<std::size_t>(step); }
+
+    Slot* room_[kSteps + 1][kSlots];
+    Slot** begin_[kSteps] = {room_[0], room_[1], room_[2], room_[3]};
+    Slot** end_[kSteps] = {room_[0], room_[1], room_[2], room_[3]};
+    Slot** spare_ = room_[kSteps];
+};
+
+/// The rays of `traverse_sorted`.
+template <class Query, std::size_t W, class Source, class Stats>
+class SortedStream {
+  public:
+    HWY_INLINE SortedStream(const WideNodeOf<W>* nodes, NodeRef root,
+                            const PrefetchTable& prefetch_table, Source& source, Stats stats)
+        : nodes_(nodes),
+          root_(root),
+          prefetch_table_(prefetch_table),
+          source_(source),
+          stats_(stats) {}
+
+    HWY_INLINE void run() {
+        for (Slot& slot : slots_) start(slot);
+        while (true) {
+            lists_.take(NextStep::Node, [&](Slot& slot) HWY_ATTR { visit_node(slot); });
+            const bool idle = lists_.count(NextStep::Node) == 0;
+            const std::size_t leaves = lists_.count(NextStep::Leaf);
+            if (leaves >= kEnough || (idle && leaves > 0)) {
+                lists_.take(NextStep::Leaf, [&](Slot& slot) HWY_ATTR { visit_leaf(slot); });
+                lists_.take(NextStep::Settle, [&](Slot& slot) HWY_ATTR { settle(slot); });
+            }
+            const bool starved =
+                lists_.count(NextStep::Node) == 0 && lists_.count(NextStep::Leaf) == 0;
+            const std::size_t done = lists_.count(NextStep::Finish);
+            if (starved && done == 0) return;
+            if (starved || done >= kEnough) {
+                lists_.take(NextStep::Finish, [&](Slot& slot) HWY_ATTR {
+                    source_.finish(slot.query(), stats_);
+                    start(slot);
+                });
+            }
+        }
+    }
+
+  private:
+    using Slot = StreamSlot<Query, W>;
+    /// Fewer rays wait until there are as many, so that most passes of a list end where the
+    /// processor expects it.
+    static constexpr std::size_t kEnough = 6;
+
+    HWY_INLINE void start(Slot& slot) {
+        if (!source_.start(slot.place)) return;
+        slot.begin(root_);
+        lists_.add(kNextSteps[0][root_.bits() >> 28], slot);
+    }
+    /// `waits`: a leaf is to be settled before.
+    HWY_INLINE void queue(Slot& slot, std::size_t height, bool waits = false) {
+        slot.height = height;
+        const std::uint32_t next = slot.stack.child[height - 1];
+        prefetch_table_.prefetch(next);
+        lists_.add(kNextSteps[waits][next >> 28], slot);
+    }
+    /// Removes what lies beyond the end of the ray, and queues the ray.
+    HWY_INLINE void queue_next(Slot& slot, std::size_t height) {
+        const float s_max = slot.query().s_max;
+        do {
+            --height;
+        } while (slot.stack.entry[height] > s_max);
+        queue(slot, height + 1);
+    }
+    /// The same if the next subtree lies beyond the end of the ray, which it rarely does.
+    HWY_INLINE bool is_beyond(Slot& slot) {
+        const std::size_t top = slot.height - 1;
+        if (HWY_LIKELY(!(slot.stack.entry[top] > slot.query().s_max))) return false;
+        queue_next(slot, top);
+        return true;
+    }
+    HWY_INLINE void visit_node(Slot& slot) {
+        if (HWY_UNLIKELY(is_beyond(slot))) return;
+        Query& query = slot.query();
+        const std::size_t height = slot.height - 1;
+        const WideNodeOf<W>& node = nodes_[NodeRef::from_bits(slot.stack.child[height]).index()];
+        stats_.nodes(1);
+        stats_.boxes(node.child_count());
+        Lanes<float, W> entries;
+        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
+        queue(slot, slot.stack.template push<Query::kOrdered>(height, node, entries, hit,
+                                                              query.slabs.near.octant));
+    }
+    HWY_INLINE void visit_leaf(Slot& slot) {
+        if (HWY_UNLIKELY(is_beyond(slot))) return;
+        Query& query = slot.query();
+        const std::size_t height = slot.height - 1;
+        if (query.visit_later(NodeRef::from_bits(slot.stack.child[height]), stats_)) {
+            return lists_.add(NextStep::Finish, slot);
+        }
+        queue(slot, height, query.waits());
+    }
+    HWY_INLINE void settle(Slot& slot) {
+        if (slot.query().settle(stats_)) return lists_.add(NextStep::Finish, slot);
+        queue_next(slot, slot.height);
+    }
+
+    const WideNodeOf<W>* nodes_;
+    NodeRef root_;
+    const PrefetchTable& prefetch_table_;
+    Source& source_;
+    [[no_unique_address]] Stats stats_;
+    StepLists<Slot, kBatchSlots> lists_;
+    Slot slots_[kBatchSlots];
+};
+
+/// Traces every ray of `source` through the tree.
+template <class Query, std::size_t W, class Source, class Stats>
+HWY_INLINE void traverse_sorted(const WideNodeOf<W>* nodes, NodeRef root,
+                                const PrefetchTable& prefetch_table, Source& source, Stats stats) {
+    SortedStream<Query, W, Source, Stats> stream(nodes, root, prefetch_table, source, stats);
+    stream.run();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
