@@ -134,11 +134,12 @@ void for_primitives(const WideBvhLayout& layout, F&& f) {
     }
 }
 
-/// The blocks of a tree of quality fast are those of fill_block, and their boxes contain the
-/// triangles of the table.
-void expect_blocks_of_table(const PrimitiveTable& table, const std::string& name) {
+/// The blocks of a tree are those of fill_block, and their boxes contain the triangles of the
+/// table.
+void expect_blocks_of_table(const PrimitiveTable& table, const std::string& name,
+                            BuildQuality quality) {
     const BoundedPrimitives bounded(table);
-    const WideBvhLayout layout = build_wide_bvh(table, bounded, {BuildQuality::Fast});
+    const WideBvhLayout layout = build_wide_bvh(table, bounded, {quality});
     for (const TriangleBlock& block : layout.triangles) {
         std::vector<PrimitiveId> ids;
         for (const BlockId id : block.ids) {
@@ -164,14 +165,38 @@ TEST(BuildReferences, BlocksOfFastTreesHoldTheTableWithinTheirBoxes) {
             const std::string name = std::to_string(size) + " at " + std::to_string(shift);
             PrimitiveTable table =
                 odd_table(size, {shift * size, -shift * size, 2 * shift * size}, 57);
-            expect_blocks_of_table(table, name);
+            expect_blocks_of_table(table, name, BuildQuality::Fast);
             // A vertex without a triangle.
             TriangleMesh mesh = *table.meshes[0].mesh;
             mesh.positions.push_back({1e300, -1e300, 1e300});
             table.meshes[0].mesh = std::make_shared<TriangleMesh>(mesh);
-            expect_blocks_of_table(table, name);
+            expect_blocks_of_table(table, name, BuildQuality::Fast);
         }
     }
+}
+
+// Its references keep only their ids while leaves are made.
+TEST(BuildReferences, BlocksOfALargeTableHoldItWithinTheirBoxes) {
+    constexpr std::uint32_t kSide = 740;
+    TriangleMesh mesh;
+    RandomEngine random(58);
+    for (std::uint32_t i = 0; i <= kSide; ++i) {
+        for (std::uint32_t k = 0; k <= kSide; ++k) {
+            mesh.positions.push_back(Vec3{double(i), double(k), 0} + uniform_point(random, 0.4));
+        }
+    }
+    for (std::uint32_t i = 0; i < kSide; ++i) {
+        for (std::uint32_t k = 0; k < kSide; ++k) {
+            const std::uint32_t a = i * (kSide + 1) + k, b = a + kSide + 1;
+            mesh.triangles.push_back({a, b, a + 1});
+            mesh.triangles.push_back({b, b + 1, a + 1});
+        }
+    }
+    PrimitiveTable table;
+    table.meshes.push_back({std::make_shared<TriangleMesh>(mesh), MaterialId{0}, 0, false});
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    expect_blocks_of_table(table, "grid", BuildQuality::Default);
 }
 
 // Blocks hold the spheres that float holds unrounded, and say which.

@@ -11,6 +11,7 @@
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_writer.h"
 #include "alhazen/aggregates/wide_bvh/leaves/table_curve.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_splitter.h"
+#include "alhazen/base/discard_pages.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/bounded_primitives.h"
@@ -25,35 +26,60 @@ constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKin
 static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
 static_assert(kBlockWidth == kCurveLeafSize);
 
+constexpr std::size_t kGrain = 16384;
+/// Bytes of references from which on their pages are returned before the leaves are made.
+constexpr std::size_t kLargeReferences = std::size_t{32} << 20;
+
 /// Copies primitives into blocks, leaf by leaf.
 class Packer final : public LeafSink {
   public:
     explicit Packer(LeafWriter& writer) : writer_(writer) {}
+    /// Leaves need only the ids of `references`: a large array loses its other values when the
+    /// leaves are made, so that its pages serve for them. The system takes longer to provide a page
+    /// that another process had.
+    Packer(LeafWriter& writer, std::span<BuildReference> references) : writer_(writer) {
+        if (references.size_bytes() >= kLargeReferences) large_ = references;
+    }
 
     void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
+        if (!large_.empty()) keep_ids();
         writer_.resize(blocks);
     }
     float pack(std::uint32_t kind, std::size_t offset,
                std::span<const BuildReference> references) override {
+        const std::size_t size = references.size();
         std::array<PrimitiveId, kBlockWidth * NodeRef::kMaxBlocks> sorted;
-        const std::span ids = std::span(sorted).first(references.size());
-        sort_ids(references, ids);
+        const std::span ids = std::span(sorted).first(size);
+        if (large_.empty()) {
+            sort_ids(ids, [&](std::size_t i) { return references[i].id; });
+        } else {
+            const std::uint32_t* const kept = ids_.get() + (references.data() - large_.data());
+            sort_ids(ids, [kept](std::size_t i) { return kept[i]; });
+        }
         return writer_.write(static_cast<LeafType>(kind), offset, ids);
     }
 
   private:
-    /// Sorts few ids by their ranks, without branches that depend on them.
-    static void sort_ids(std::span<const BuildReference> references, std::span<PrimitiveId> ids) {
-        const std::size_t size = references.size();
+    void keep_ids() {
+        ids_ = make_huge_array<std::uint32_t>(large_.size());
+        parallel_for(large_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) ids_[i] = large_[i].id;
+        });
+        discard_pages(large_.data(), large_.size_bytes());
+    }
+
+    /// Sorts few ids, id_of(0) and so on, by their ranks, without branches that depend on them.
+    template <class IdOf>
+    static void sort_ids(std::span<PrimitiveId> ids, const IdOf& id_of) {
+        const std::size_t size = ids.size();
         if (size > 2 * kBlockWidth) {
-            std::transform(references.begin(), references.end(), ids.begin(),
-                           [](const BuildReference& r) { return PrimitiveId{r.id}; });
+            for (std::size_t i = 0; i < size; ++i) ids[i] = PrimitiveId{id_of(i)};
             std::sort(ids.begin(), ids.end());
             return;
         }
         std::array<std::uint32_t, 2 * kBlockWidth> id, rank;
         for (std::size_t i = 0; i < size; ++i) {
-            id[i] = references[i].id;
+            id[i] = id_of(i);
             std::uint32_t before = 0;
             for (std::size_t k = 0; k < i; ++k) {
                 const std::uint32_t later = id[i] < id[k];
@@ -66,9 +92,9 @@ class Packer final : public LeafSink {
     }
 
     LeafWriter& writer_;
+    std::span<BuildReference> large_;
+    HugeArray<std::uint32_t> ids_;  ///< of `large_`, whose values are lost
 };
-
-constexpr std::size_t kGrain = 16384;
 
 }  // namespace
 
@@ -111,8 +137,8 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
         layout.tree = build_along_curve(primitives, kLeafKindTable, width);
         return layout;
     }
-    Packer packer(writer);
     if (options.quality == BuildQuality::High) {
+        Packer packer(writer);
         // Splits add references.
         std::vector<BuildReference> references(bounded.size());
         make_references(table, bounded, layout.frame, references);
@@ -124,6 +150,7 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     const std::span references(room.get(), bounded.size());
     make_references(table, bounded, layout.frame, references);
     const BinaryBvh binary = build_binary(references, kLeafKindTable);
+    Packer packer(writer, references);
     layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
     return layout;
 }
