@@ -12,6 +12,8 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <span>
@@ -47,28 +49,39 @@ HWY_INLINE bool run(Query& query, bool follows, Stats stats) {
     return stopped;
 }
 
-/// The valid, unfinished rays of a batch, in order.
-template <class Query, class Result>
+/// The valid, unfinished rays of a batch that meet a child of the root, if it is a node. Of each
+/// sixteen, those that are not prepared in lanes come last.
+template <class Query, std::size_t W, class Result, class Stats>
 class BatchSource {
   public:
     HWY_INLINE BatchSource(const WideBvhScene& scene, std::span<const Ray> rays,
-                           std::span<Result> results)
-        : scene_(scene), rays_(rays), results_(results), resolution_(scene) {}
+                           std::span<Result> results, Stats stats)
+        : scene_(scene),
+          rays_(rays),
+          results_(results),
+          frame_(scene.layout->frame, GivenRays(rays)),
+          stats_(stats),
+          resolution_(scene) {
+        const WideBvh& tree = scene.layout->tree;
+        if (!tree.root.is_leaf()) root_ = &nodes_of<W>(tree)[tree.root.index()];
+    }
 
     HWY_INLINE bool start(void* place) {
-        while (next_ < rays_.size()) {
-            const std::size_t i = next_++;
-            const std::size_t soon = std::min(i + kSoon, rays_.size() - 1);
-            hwy::Prefetch(&rays_[soon]);
-            hwy::Prefetch(&results_[soon]);
-            if (done(results_[i])) continue;
-            if ((new (place) Query(scene_, rays_[i], results_[i]))->valid) return true;
+        while (true) {
+            if (HWY_LIKELY(prepared_ != 0)) {
+                const std::size_t i = take(prepared_);
+                new (place) Query(scene_, rays_[i], results_[i], records_[i - first_]);
+                return true;
+            }
+            if (HWY_UNLIKELY(others_ != 0)) {
+                if (start_alone(place, take(others_))) return true;
+            } else if (!fill()) {
+                return false;
+            }
         }
-        return false;
     }
 
     /// Called when the query has visited all of its leaves.
-    template <class Stats>
     HWY_INLINE void finish(Query& query, Stats stats) {
         if constexpr (requires { query.finish_later(resolution_, stats); }) {
             query.finish_later(resolution_, stats);
@@ -77,29 +90,76 @@ class BatchSource {
         }
     }
     /// Called after the last ray.
-    template <class Stats>
-    HWY_INLINE void finish_all(Stats stats) {
-        resolution_.flush(stats);
-    }
+    HWY_INLINE void finish_all(Stats stats) { resolution_.flush(stats); }
 
   private:
-    /// Number of rays to prefetch ahead.
+    static constexpr std::size_t kRays = RayRecords::kRays;
+    /// Number of results to prefetch ahead.
     static constexpr std::size_t kSoon = 16;
 
     static bool done(const Hit&) { return false; }
     static bool done(bool occluded) { return occluded; }
 
+    /// Removes the first of `bits`; the index of the ray.
+    HWY_INLINE std::size_t take(std::uint32_t& bits) {
+        const std::size_t i = first_ + static_cast<std::size_t>(std::countr_zero(bits));
+        bits &= bits - 1;
+        hwy::Prefetch(&results_[std::min(i + kSoon, results_.size() - 1)]);
+        return i;
+    }
+    HWY_NOINLINE bool start_alone(void* place, std::size_t i) {
+        return (new (place) Query(scene_, rays_[i], results_[i]))->valid;
+    }
+    /// Turns to the next rays; false if there are none.
+    HWY_NOINLINE bool fill() {
+        first_ = next_;
+        const std::size_t count = std::min(kRays, rays_.size() - first_);
+        if (count == 0) return false;
+        next_ += count;
+        std::uint32_t waiting = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            hwy::Prefetch(&rays_[std::min(next_ + i, rays_.size() - 1)]);
+            waiting |= std::uint32_t{!done(results_[first_ + i])} << i;
+        }
+        if constexpr (RayRecords::kSupported) {
+            if (HWY_LIKELY(count == kRays)) {
+                std::uint32_t missed = 0;
+                const std::span<const Ray, kRays> rays(&rays_[first_], kRays);
+                const std::uint32_t prepared = records_.prepare(
+                    frame_, Query::slab_slack(scene_.layout->frame), rays, root_, missed);
+                others_ = waiting & ~prepared;
+                prepared_ = waiting & prepared & ~missed;
+                skip(waiting & missed);
+                return true;
+            }
+        }
+        others_ = waiting;
+        return true;
+    }
+    /// Counts the rays that meet no child of the root.
+    HWY_INLINE void skip(std::uint32_t missed) {
+        if (!Stats::kCounts || missed == 0) return;
+        const auto count = static_cast<std::uint64_t>(std::popcount(missed));
+        stats_.nodes(count);
+        stats_.boxes(count * root_->child_count());
+    }
+
     const WideBvhScene& scene_;
     std::span<const Ray> rays_;
     std::span<Result> results_;
-    std::size_t next_ = 0;
+    LaneFrame frame_;
+    const WideNodeOf<W>* root_ = nullptr;
+    [[no_unique_address]] Stats stats_;
+    std::size_t first_ = 0, next_ = 0;
+    std::uint32_t prepared_ = 0, others_ = 0;  ///< bits of the rays from first_ on
+    RayRecords records_;
     BatchResolution resolution_;
 };
 
 template <class Query, std::size_t W, class Result, class Stats>
 HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                           std::span<Result> results, Stats stats) {
-    BatchSource<Query, Result> source(scene, rays, results);
+    BatchSource<Query, W, Result, Stats> source(scene, rays, results, stats);
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();

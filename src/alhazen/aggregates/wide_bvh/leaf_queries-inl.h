@@ -18,6 +18,7 @@
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/ray_records-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_tests-inl.h"
@@ -61,6 +62,21 @@ struct LeafQuery {
                 parameter = axes.parameter;
             });
         s_max = slabs.s_max;
+    }
+    /// `record`: the same ray, prepared.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const RayRecord& record)
+        : slabs(record.slabs),
+          filter(record.filter),
+          ray(r),
+          source(&r),
+          parameter{s.layout->frame.scale, 0.0},
+          scene(s),
+          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
+          s_max(record.slabs.s_max),
+          valid(true) {}
+
+    [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
+        return Test::slab_slack(frame);
     }
 
     template <class Stats>
@@ -372,8 +388,10 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     WaitingShapes<8> waiting;
 
     /// `found` may hold an earlier hit.
-    HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
-        : Base(s, r), best(found) {
+    template <class... Record>
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found,
+                            const Record&... record)
+        : Base(s, r, record...), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -483,8 +501,10 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     const BoxBlock* sure_block = nullptr;  ///< of a flat shape that occludes the ray; or null
     std::size_t sure_lane = 0;
 
-    HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
-        : Base(s, r), occluded(result) {}
+    template <class... Record>
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result,
+                             const Record&... record)
+        : Base(s, r, record...), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const typename Test::Found& found,
@@ -527,8 +547,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     /// Whether a flat shape that occluded a ray of the batch before certainly does. `found`: what
     /// the filter of their block finds.
     template <class Stats>
-    HWY_INLINE bool take_recent(RecentOccluders& recent, const FilteredShapes& found,
-                                Stats stats) {
+    HWY_INLINE bool take_recent(RecentOccluders& recent, const FilteredShapes& found, Stats stats) {
         if (take_sure(recent.block(), found, stats)) {
             recent.keep(sure_lane);
             return true;

@@ -1,0 +1,123 @@
+// Rays of a batch prepared sixteen at a time: the hits of single rays wherever some of the sixteen
+// are prepared apart or miss the root; the work of rays that miss the root.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "alhazen/simd/targets.h"
+#include "unit/aggregates/compare_aggregates.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+/// Batches of small trees test the stream.
+const StreamOverride kStreams;
+
+using namespace testing;
+
+/// Rays through the scene and past it; every seventh is of an unusual kind.
+std::vector<Ray> rays_of_all_kinds(std::size_t count) {
+    const MakeRay make_ray = random_rays(1);
+    RandomEngine random(81);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        Ray ray = make_ray(random);
+        if (i % 3 == 0) ray.origin = ray.origin + Vec3{5, 0, 0};
+        switch (i % 7 == 0 ? i / 7 % 9 : 9) {
+            case 0:
+                ray.t_min = -1;
+                break;
+            case 1:
+                ray.t_min = -0.0;
+                break;
+            case 2:
+                ray.t_min = std::numeric_limits<double>::quiet_NaN();
+                break;
+            case 3:  // out of order in double, equal in float
+                ray.t_min = 2;
+                ray.t_max = std::nextafter(2, 0);
+                break;
+            case 4:
+                ray.origin = ray.origin - 1e3 * ray.direction;
+                break;
+            case 5:
+                ray.direction = 1e-20 * ray.direction;
+                break;
+            case 6:
+                ray.direction = {0, -0.0, 1};
+                break;
+            case 7:
+                ray.t_max = std::numeric_limits<double>::infinity();
+                break;
+            case 8:
+                ray.origin.y = std::numeric_limits<double>::infinity();
+                break;
+            default:
+                break;
+        }
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+TEST(RayRecords, HaveTheHitsOfSingleRaysInBatchesOfAllSizes) {
+    const PrimitiveTable table = random_mixture(700, 1, 0.1, 82);
+    const std::vector<Ray> rays = rays_of_all_kinds(2000);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tree = make_aggregate("wide_bvh", table);
+        for (const std::size_t size : {1, 7, 16, 33, 500}) {
+            int found = 0;
+            for (std::size_t first = 0; first < rays.size(); first += size) {
+                const std::span<const Ray> batch =
+                    std::span(rays).subspan(first, std::min(size, rays.size() - first));
+                std::vector<Hit> hits(batch.size());
+                const auto occluded = std::make_unique<bool[]>(batch.size());
+                tree->closest_batch(batch, hits, nullptr);
+                tree->occluded_batch(batch, {occluded.get(), batch.size()}, nullptr);
+                for (std::size_t i = 0; i < batch.size(); ++i) {
+                    const Answer answer = ask(*tree, batch[i]);
+                    found += answer.found;
+                    ASSERT_TRUE(same(hits[i], answer.closest))
+                        << target << ", " << size << ": " << show(batch[i]);
+                    ASSERT_EQ(occluded[i], answer.occluded)
+                        << target << ", " << size << ": " << show(batch[i]);
+                }
+            }
+            EXPECT_GT(found, 100);
+        }
+    }
+}
+
+TEST(RayRecords, VisitTheRootAlone) {
+    const PrimitiveTable table = random_triangles(700, 1, 0.1, 83);
+    std::vector<Ray> rays = rays_of_all_kinds(67);
+    for (Ray& ray : rays) ray = {{9, ray.direction.y, 9}, {0, 1, 0}};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const WideBvhAggregate tested(table);
+        TraversalStats stats;
+        std::vector<Hit> hits(rays.size());
+        tested.closest_batch(rays, hits, &stats);
+        TraversalStats alone;
+        for (const Ray& ray : rays) {
+            Hit hit;
+            EXPECT_FALSE(tested.closest(ray, hit, &alone));
+        }
+        EXPECT_EQ(stats.node_visits, rays.size()) << target;
+        EXPECT_EQ(stats.node_visits, alone.node_visits) << target;
+        EXPECT_EQ(stats.box_tests, alone.box_tests) << target;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
