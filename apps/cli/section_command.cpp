@@ -153,7 +153,8 @@ void add_section_options(CLI::App& command, SectionArguments& args) {
         ->capture_default_str();
     command.add_option("--camera", args.camera,
                        "Look through this camera of the scene instead of straight on");
-    command.add_option("--svg", args.svg, "Outlines of the cut, a layer for each solid")
+    command
+        .add_option("--svg", args.svg, "Outlines of the cut, a layer for each solid; - for stdout")
         ->type_name("FILE");
     command
         .add_option("--unit", args.svg_options.unit,
@@ -181,7 +182,7 @@ void add_section_options(CLI::App& command, SectionArguments& args) {
 
 void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved,
                 const SectionArguments& args) {
-    if (args.json != "-") {
+    if (args.json != "-" && args.svg != "-") {
         for (const Cut& cut : cuts) {
             print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
                   escape_controls(cut.name), cut.area.area.value, cut.area.area.half_width);
@@ -208,6 +209,9 @@ void run_section(SectionArguments& args, int& exit_status) {
         if (!path.empty() && path != "-") outputs.emplace_back(path);
     }
     check_distinct(outputs);
+    if (args.svg == "-" && args.json == "-") {
+        throw Error(ErrorKind::Usage, "--svg and --json cannot both be written to stdout");
+    }
     const LoadedScene loaded = load(args.scene.scene, args.scene.load_options());
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
@@ -226,7 +230,7 @@ void run_section(SectionArguments& args, int& exit_status) {
         // Up to here a signal ends the program without output; from here all output is written.
         (void)stop_on_signals();
         if (picture) write_image(args.output, *picture);
-        if (!args.svg.empty()) write_file_atomically(args.svg, svg);
+        if (!args.svg.empty()) write_report(args.svg, svg);
         print_cuts(cuts, unresolved, args);
         if (!args.json.empty()) {
             write_report(args.json,

@@ -534,6 +534,7 @@ plane { point = (0, 0, -9) }
         self.assertEqual(self.read("cut.png")[:4], b"\x89PNG")
         svg = self.read("cut.svg").decode()
         self.assertIn('inkscape:label="ball"', svg)
+        self.assertEqual(run("section", scene, "--plane", "0,0,1,0", "--svg", "-").stdout, svg)
         self.assertEqual(svg.count("<path"), 2)
         areas = [solid["area"]["value"] for solid in json.loads(self.read("cut.json"))["solids"]]
         self.assertAlmostEqual(areas[0], 12.566370614, 4)

@@ -137,7 +137,8 @@ class RecursiveEstimator {
             path.sample = static_cast<std::uint32_t>(eye_paths_.size() - 1);
         }
         if constexpr (!kDrawsNothing) {
-            for (Path& path : eye_paths_) path.time = random_.time(path.sample);
+            for (std::size_t i = 0; i < count; ++i)
+                eye_paths_[i].time = random_.time(eye_paths_[i].sample);
         }
     }
 

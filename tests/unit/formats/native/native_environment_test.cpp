@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "alhazen/imaging/image/encoding.h"
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/shading/lights/ies_profile.h"
 #include "support/scratch_folder.h"
@@ -95,6 +96,27 @@ TEST(NativeEnvironment, RoundTripKeepsEveryBit) {
         }
         scene.environment = EnvironmentDescription{settings, {}};
         expect_round_trip(scene);
+    }
+}
+
+/// Straight alpha does not darken the colours, which an environment takes as they are; the coding
+/// that the block has no key for is undone.
+TEST(NativeEnvironment, PicturesOfOtherThanCodesAreWrittenLinear) {
+    for (const bool linear : {false, true}) {
+        SceneDescription scene = empty_scene();
+        EnvironmentSettings settings;
+        settings.kind = EnvironmentKind::Picture;
+        Image image(2, 1, 4);
+        image.linear = linear;
+        image.samples = {0.3f, 0.6f, 0.9f, 0.25f, 0.1f, 0.2f, 1.0f, 0.5f};
+        settings.picture = std::make_shared<const Image>(image);
+        scene.environment = EnvironmentDescription{settings, {}};
+        const Image read = *RoundTrip(scene).read.scene.environment->settings.picture;
+        EXPECT_TRUE(read.linear);
+        for (const std::size_t i : {0, 1, 2, 4, 5, 6}) {
+            const double value = image.samples[i];
+            EXPECT_NEAR(read.samples[i], linear ? value : linear_from_srgb(value), 1e-7) << i;
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include "alhazen/formats/native/read/native_settings.h"
 #include "alhazen/formats/native/write/native_write_context.h"
 #include "alhazen/formats/pictures/picture_export.h"
+#include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/shading/lights/ies_profile.h"
 
@@ -191,6 +192,20 @@ void write_native_picture(NativeWriteContext& context) {
     if (!block.empty()) context.append(block);
 }
 
+namespace {
+
+/// Environments take colours as they are, whatever alpha says, and have no key for their coding:
+/// what is not of codes is written linear, not multiplied by alpha.
+PictureFile environment_file(const Image& picture) {
+    StoredImage image = stored(picture);
+    if (!std::holds_alternative<std::vector<float>>(image.samples)) return picture_file(image);
+    Image plain = picture;
+    plain.associated = true;
+    return {"exr", encode_image("exr", plain, {.full_float = true})};
+}
+
+}  // namespace
+
 void write_native_environment(NativeWriteContext& context) {
     if (!context.scene.environment) return;
     const EnvironmentSettings& e = context.scene.environment->settings;
@@ -198,7 +213,7 @@ void write_native_environment(NativeWriteContext& context) {
     NativeBlockText block("environment");
     block.add("kind", std::string(native_word(e.kind)));
     if (e.kind == EnvironmentKind::Picture && e.picture) {
-        const PictureFile file = picture_file(stored(*e.picture));
+        const PictureFile file = environment_file(*e.picture);
         block.add("file",
                   native_string(context.write_file("environment." + file.suffix, file.bytes)));
     }
