@@ -424,7 +424,9 @@ class WideCollapse {
             const FloatBox& box = binary_.nodes[all.node[i]].box;
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
-            promise[i] = visit_priority(emitted[i], box);
+            // Ranks of what is no number would not be a permutation.
+            const float priority = visit_priority(emitted[i], box);
+            promise[i] = priority >= 0 ? priority : 0;
         }
         const auto order = by_promise(promise, all.count);
         sum.cost = 1.0f + sum.cost / binary_.nodes[index].box.weight();
