@@ -77,7 +77,7 @@ void DirectLight::add_light_of(const LitBy& by) {
     if (count == 0) return;
     const std::span<bool> met(met_.get(), count);
     scene_.aggregate->occluded_batch({rays_->rays, count}, met, {stats_, mask_of(RayKind::Shadow)},
-                                     Coherence::Coherent);
+                                     coherence_);
     cast_.cast += count;
     for (std::size_t i = 0; i < count; ++i) {
         if (met[i]) {

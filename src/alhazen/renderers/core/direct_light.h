@@ -47,6 +47,8 @@ class DirectLight {
     }
     /// Casts the shadow rays.
     void finish();
+    /// Sets the coherence of further points; none may be waiting. Coherent: they are neighbours.
+    void expect(Coherence coherence) { coherence_ = coherence; }
 
   private:
     struct LitBy {
@@ -63,7 +65,8 @@ class DirectLight {
     RayCount& cast_;
     TraversalStats* stats_;
     std::vector<LitBy> lights_;  ///< those that illuminate
-    std::size_t count_ = 0;      ///< of points
+    Coherence coherence_ = Coherence::Any;
+    std::size_t count_ = 0;  ///< of points
     std::unique_ptr<ShadedPoints> points_;
     std::unique_ptr<LightRays> rays_;
     std::unique_ptr<Rgb*[]> sums_;          ///< [point]

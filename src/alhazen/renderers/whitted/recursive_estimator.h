@@ -65,10 +65,6 @@ concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
-/// Mirrored and refracted rays of neighbours stay neighbours for a few generations: these are
-/// traced as coherent rays unless their directions are drawn at random.
-inline constexpr int kLastCoherentGeneration = 2;
-
 /// Traces batches of eye rays; memory is reused from batch to batch.
 template <class Randomness>
 class RecursiveEstimator {
@@ -168,7 +164,8 @@ class RecursiveEstimator {
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
-            if (!direct_) shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
+            const Coherence coherence = depth == 0 ? Coherence::Coherent : Coherence::Any;
+            direct_ ? direct_->expect(coherence) : shadows_.expect(coherence);
             intersect_surfaces(part, depth, met == 0, front);
             direct_ ? direct_->finish() : shadows_.finish();
             trace_all(front.next, depth + 1);
@@ -191,9 +188,7 @@ class RecursiveEstimator {
     /// Finds the next surface along each active ray; `first`: none has been found yet.
     void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
-        const int coherent = kDrawsNothing ? kLastCoherentGeneration : 0;
-        const Coherence coherence =
-            first && depth <= coherent ? Coherence::Coherent : Coherence::Any;
+        const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
         const auto path_of = [&](std::size_t k) -> const Path& {
             return part.paths[front.active[k]];
         };
