@@ -16,21 +16,17 @@
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::above_a_light;
+using testing::box;
 using testing::center;
 using testing::expect_near;
 using testing::glowing;
 using testing::Layer;
 using testing::passed;
+using testing::physical;
 using testing::SceneMaker;
 
 const Rgb kWhite{1, 1, 1};
-
-Material physical(const Layer& layer) {
-    Material m;
-    m.index.value = layer.index;
-    m.dielectric = Dielectric{{layer.absorption, layer.absorption, layer.absorption}};
-    return m;
-}
 
 /// The same medium by Whitted's coefficients.
 Material by_kt(const Layer& layer) {
@@ -39,23 +35,6 @@ Material by_kt(const Layer& layer) {
     m.index.value = layer.index;
     m.transmissive.color = {kt, kt, kt};
     return m;
-}
-
-BoxShape box(double bottom, double top, double half = 3.0) {
-    return {{-half, -half, bottom}, {half, half, top}};
-}
-
-/// Black surroundings, seen from above the origin, and a light below.
-SceneMaker above_a_light() {
-    SceneMaker maker;
-    ShadingConventions& c = maker.description().conventions.shading;
-    c.optics = {true, true};
-    c.max_depth = 16;
-    maker.description().cameras[0].camera =
-        look_along({0.1, 0.2, 30}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
-    maker.add(Rectangle{{-50, -50, -20}, {100, 0, 0}, {0, 100, 0}},
-              maker.material(glowing(kWhite)));
-    return maker;
 }
 
 void expect_passed(SceneMaker& maker, const std::vector<Layer>& layers, double within = 1e-9) {

@@ -15,22 +15,19 @@
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::above_a_light;
+using testing::box;
 using testing::center;
 using testing::expect_near;
 using testing::glowing;
 using testing::Layer;
 using testing::passed;
+using testing::physical;
 using testing::picture_of;
 using testing::SceneMaker;
 
 const Layer kAir{1}, kA{1.5, 0.1, 1}, kB{1.7, 0.3, 1};
 
-Material physical(const Layer& layer) {
-    Material m;
-    m.index.value = layer.index;
-    m.dielectric = Dielectric{{layer.absorption, layer.absorption, layer.absorption}};
-    return m;
-}
 /// The same medium by the parameters of glTF.
 Material by_roughness(const Layer& layer) {
     Material m = testing::smooth_glass(layer.index);
@@ -38,23 +35,6 @@ Material by_roughness(const Layer& layer) {
     m.metallic_roughness->attenuation_distance = 1;
     m.metallic_roughness->attenuation_color = {left, left, left};
     return m;
-}
-
-BoxShape box(double bottom, double top, double half = 3.0) {
-    return {{-half, -half, bottom}, {half, half, top}};
-}
-
-/// Black surroundings, seen from above the origin, and a light below.
-SceneMaker above_a_light() {
-    SceneMaker maker;
-    ShadingConventions& c = maker.description().conventions.shading;
-    c.optics = {true, true};
-    c.max_depth = 16;
-    maker.description().cameras[0].camera =
-        look_along({0.1, 0.2, 30}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
-    maker.add(Rectangle{{-50, -50, -20}, {100, 0, 0}, {0, 100, 0}},
-              maker.material(glowing({1, 1, 1})));
-    return maker;
 }
 
 ObjectIndex solid(SceneMaker& maker, Combine combine) {

@@ -1,8 +1,11 @@
 #pragma once
-/// Light along the normal of a stack of layers, in closed form.
+/// Light along the normal of a stack of layers, in closed form, and scenes of such stacks.
 
 #include <cmath>
 #include <vector>
+
+#include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
 namespace alhazen::testing {
 
@@ -25,6 +28,31 @@ inline double passed(const std::vector<Layer>& layers) {
         back *= left * left;
     }
     return through;
+}
+
+/// A physical dielectric with the medium of the layer.
+inline Material physical(const Layer& layer) {
+    Material m;
+    m.index.value = layer.index;
+    m.dielectric = Dielectric{{layer.absorption, layer.absorption, layer.absorption}};
+    return m;
+}
+
+inline BoxShape box(double bottom, double top, double half = 3.0) {
+    return {{-half, -half, bottom}, {half, half, top}};
+}
+
+/// Black surroundings, seen from above the origin, and a light below.
+inline SceneMaker above_a_light() {
+    SceneMaker maker;
+    ShadingConventions& c = maker.description().conventions.shading;
+    c.optics = {true, true};
+    c.max_depth = 16;
+    maker.description().cameras[0].camera =
+        look_along({0.1, 0.2, 30}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
+    maker.add(Rectangle{{-50, -50, -20}, {100, 0, 0}, {0, 100, 0}},
+              maker.material(glowing({1, 1, 1})));
+    return maker;
 }
 
 }  // namespace alhazen::testing
