@@ -149,8 +149,9 @@ INSIDE = {
         "photon_mapping": ["photons"],
         "sppm": ["photons"],
         "vcm": ["bidirectional", "photons"],
-        "ray_casting": ["antialias"],
-        "whitted": ["antialias", "volumes"],
+        "direct_light": ["core"],
+        "ray_casting": ["antialias", "direct_light"],
+        "whitted": ["antialias", "volumes", "direct_light"],
         "distributed": ["whitted"],
     },
     "sampling": {

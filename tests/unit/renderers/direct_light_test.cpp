@@ -1,6 +1,6 @@
 // The light of many points in lanes equals that of one shadow ray after the other.
 
-#include "alhazen/renderers/core/direct_light.h"
+#include "alhazen/renderers/direct_light/direct_light.h"
 
 #include <gtest/gtest.h>
 

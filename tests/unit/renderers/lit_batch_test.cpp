@@ -1,6 +1,6 @@
 // The light of hits in lanes equals that of shading each surface.
 
-#include "alhazen/renderers/core/lit_batch.h"
+#include "alhazen/renderers/direct_light/lit_batch.h"
 
 #include <gtest/gtest.h>
 

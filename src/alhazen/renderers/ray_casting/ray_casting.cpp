@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "alhazen/renderers/core/lit_batch.h"
+#include "alhazen/renderers/direct_light/lit_batch.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/pixel_loop.h"
 #include "alhazen/renderers/core/unlit_cache.h"

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "alhazen/renderers/core/direct_light.h"
+#include "alhazen/renderers/direct_light/direct_light.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"

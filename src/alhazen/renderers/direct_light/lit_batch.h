@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "alhazen/primitives/surface_group.h"
-#include "alhazen/renderers/core/lit_lanes.h"
+#include "alhazen/renderers/direct_light/lit_lanes.h"
 #include "alhazen/renderers/core/local_shading.h"
 
 namespace alhazen {

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/core/lit_batch.h"
+#include "alhazen/renderers/direct_light/lit_batch.h"
 
 #include <algorithm>
 

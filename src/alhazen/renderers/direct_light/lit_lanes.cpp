@@ -1,14 +1,14 @@
-#include "alhazen/renderers/core/lit_lanes.h"
+#include "alhazen/renderers/direct_light/lit_lanes.h"
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/renderers/core/lit_lanes.cpp"
+#define HWY_TARGET_INCLUDE "alhazen/renderers/direct_light/lit_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/renderers/core/light_lanes-inl.h"
+#include "alhazen/renderers/direct_light/light_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

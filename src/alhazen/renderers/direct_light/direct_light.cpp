@@ -1,4 +1,4 @@
-#include "alhazen/renderers/core/direct_light.h"
+#include "alhazen/renderers/direct_light/direct_light.h"
 
 namespace alhazen {
 

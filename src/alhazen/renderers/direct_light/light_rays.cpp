@@ -1,4 +1,4 @@
-#include "alhazen/renderers/core/light_rays.h"
+#include "alhazen/renderers/direct_light/light_rays.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,10 +10,10 @@
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/renderers/core/light_rays.cpp"
+#define HWY_TARGET_INCLUDE "alhazen/renderers/direct_light/light_rays.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/renderers/core/light_lanes-inl.h"
+#include "alhazen/renderers/direct_light/light_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

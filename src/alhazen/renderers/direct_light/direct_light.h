@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "alhazen/renderers/core/light_rays.h"
+#include "alhazen/renderers/direct_light/light_rays.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/ray_counters.h"
 
