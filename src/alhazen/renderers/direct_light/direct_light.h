@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "alhazen/renderers/direct_light/light_rays.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/direct_light/light_rays.h"
 
 namespace alhazen {
 

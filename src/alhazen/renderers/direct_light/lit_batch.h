@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "alhazen/primitives/surface_group.h"
-#include "alhazen/renderers/direct_light/lit_lanes.h"
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/direct_light/lit_lanes.h"
 
 namespace alhazen {
 

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "alhazen/renderers/direct_light/lit_batch.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/pixel_loop.h"
 #include "alhazen/renderers/core/unlit_cache.h"
 #include "alhazen/renderers/core/visible_batch.h"
+#include "alhazen/renderers/direct_light/lit_batch.h"
 
 namespace alhazen {
 

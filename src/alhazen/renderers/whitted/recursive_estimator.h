@@ -11,13 +11,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "alhazen/renderers/direct_light/direct_light.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
+#include "alhazen/renderers/direct_light/direct_light.h"
 #include "alhazen/renderers/volumes/exact_optics.h"
 #include "alhazen/renderers/volumes/shadow_batch.h"
 #include "alhazen/renderers/whitted/wave_split.h"
