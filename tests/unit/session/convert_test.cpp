@@ -426,7 +426,10 @@ TEST(ConvertMeshes, AnObjTellsWhatItLosesOfVertices) {
     const ScratchFolder folder;
     SceneMaker maker;
     Material mapped{.name = "mapped"};
-    maker.description().textures.emplace_back();
+    ImageTexture blue;
+    blue.image = std::make_shared<StoredImage>(
+        StoredImage{1, 1, 3, false, std::vector<std::uint8_t>{128, 128, 255}});
+    maker.description().textures.push_back({"blue", blue, {}});
     mapped.normal_map.texture = TextureId{0};
     const MaterialId plain = maker.material({.name = "plain"}), other = maker.material(mapped);
     TriangleMesh mesh = testing::tetrahedron();
