@@ -153,14 +153,16 @@ class LineRow {
 }  // namespace
 
 PlaneFrame frame_of(const SectionPlane& plane) {
-    const double size = length(plane.normal);
-    if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(plane.offset)) {
+    // Divided by the largest component first: squares of others may overflow or vanish.
+    const double largest = max_component(abs(plane.normal));
+    if (!(largest > 0.0) || !is_finite(plane.normal) || !std::isfinite(plane.offset)) {
         throw Error(ErrorKind::Usage,
                     "a plane needs a normal that is not zero, and finite numbers");
     }
-    const Vec3 n = plane.normal / size;
+    const double size = length(plane.normal / largest);
+    const Vec3 n = plane.normal / largest / size;
     const Vec3 right = std::hypot(n.x, n.y) > 1e-9 ? normalize(cross({0, 0, 1}, n)) : Vec3{1, 0, 0};
-    return {(plane.offset / size) * n, right, cross(n, right), n};
+    return {(plane.offset / largest / size) * n, right, cross(n, right), n};
 }
 
 SectionArea section_area(const Measurable& solid, const SectionPlane& plane,

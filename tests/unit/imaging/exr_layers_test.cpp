@@ -7,10 +7,17 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfIO.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "alhazen/base/error.h"
 
@@ -125,6 +132,64 @@ TEST(ExrLayers, OurOwnReaderFindsTheBeautyAmongTheLayers) {
     EXPECT_EQ(image.held.x0, 3);
     EXPECT_EQ(image.held.y0, 2);
     EXPECT_EQ(held_part(image).samples, picture.film.to_image().samples);
+}
+
+/// Output stream for the OpenEXR library.
+class Written final : public Imf::OStream {
+  public:
+    Written() : Imf::OStream("test") {}
+    void write(const char source[], int count) override {
+        bytes.resize(std::max(bytes.size(), at_ + static_cast<std::size_t>(count)));
+        std::memcpy(bytes.data() + at_, source, static_cast<std::size_t>(count));
+        at_ += static_cast<std::size_t>(count);
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t position) override { at_ = position; }
+    std::string bytes;
+
+  private:
+    std::size_t at_ = 0;
+};
+
+/// A file of parts of 2 x 1 pixels: part k has the channels of `parts[k]`, all of value k + 1.
+std::string file_of_parts(const std::vector<std::vector<const char*>>& parts) {
+    std::vector<Imf::Header> headers;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        Imf::Header header(2, 1);
+        header.setName("part" + std::to_string(k));
+        header.setType(Imf::SCANLINEIMAGE);
+        for (const char* channel : parts[k]) header.channels().insert(channel, {Imf::FLOAT});
+        headers.push_back(header);
+    }
+    Written stream;
+    {
+        Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()));
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            std::vector<float> samples(2, float(k + 1));
+            Imf::FrameBuffer frame;
+            for (const char* channel : parts[k]) {
+                frame.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&samples[0]),
+                                                 sizeof(float), 0));
+            }
+            Imf::OutputPart part(file, int(k));
+            part.setFrameBuffer(frame);
+            part.writePixels(1);
+        }
+    }
+    return stream.bytes;
+}
+
+TEST(ExrParts, ThePartWithColoursIsRead) {
+    using Parts = std::vector<std::vector<const char*>>;
+    const auto read = [](const Parts& parts) {
+        const Image image = decode_image(file_of_parts(parts), "parts.exr");
+        return std::pair(image.channels, image.samples.front());
+    };
+    EXPECT_EQ(read({{"Z"}, {"R", "G", "B"}}), std::pair(3, 2.0f));
+    EXPECT_EQ(read({{"left.R", "left.G", "left.B"}, {"Y"}, {"R", "G", "B", "A"}}),
+              std::pair(4, 3.0f));
+    EXPECT_EQ(read({{"Z"}, {"id"}, {"Y", "A"}}), std::pair(2, 3.0f));
+    EXPECT_EQ(read({{"Z"}, {"id"}}), std::pair(1, 1.0f));
 }
 
 TEST(ExrLayers, TheBeautyIsThatOfAPictureWithoutLayers) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "alhazen/scene/scene_sphere.h"
 #include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -127,6 +129,39 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
         if (!scene.has_scattering) renderers.push_back("light_tracing:depth=5");
         expect_same_light(scene, c.name, renderers, 24, kMost);
     }
+}
+
+/// A black plane, a ball at rest and one that moves by 6 while the shutter is open.
+SceneMaker moving_ball_above_a_plane(bool with_plane) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{3, -15, 0}, {0, 1, 0}, {4, 0, 0}, {0, 0, 4}};
+    maker.description().picture.background = Rgb{0.5, 0.5, 0.5};
+    if (with_plane) maker.add(Plane{{0, 0, -1.5}, {0, 0, 1}}, maker.material(matt({})));
+    maker.add(ball({0, 2, 0}, 0.2), maker.material(matt({0.5, 0.5, 0.5})));
+    maker.add(ball({0, 0, 0}, 0.7), maker.material(matt({0.9, 0.9, 0.9})));
+    SceneDescription& d = maker.description();
+    d.objects[0].parts.back().motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({6, 0, 0})}}, {}});
+    d.shutter = {0, 1};
+    return maker;
+}
+
+TEST(EndlessPlanes, TheSphereOfAllThatIsBoundedHoldsWhatMovesAndWhatRests) {
+    const Scene scene = moving_ball_above_a_plane(true).compile();
+    const BoundingSphere sphere = sphere_around_bounded(scene);
+    for (const Vec3& p : {Vec3{-0.7, 0, 0}, {6.7, 0, 0}, {0, 2.2, 0}, {6, 0, 0.7}}) {
+        EXPECT_LE(length(p - sphere.center), sphere.radius);
+    }
+    EXPECT_LT(sphere.radius, 5);
+    const BoundingSphere alone = sphere_around_bounded(moving_ball_above_a_plane(false).compile());
+    EXPECT_NEAR(sphere.radius, alone.radius, 1e-6);
+}
+
+TEST(EndlessPlanes, LightPathsReachWhatMovesAboveThem) {
+    expect_same_light(moving_ball_above_a_plane(true).compile(), "moving ball",
+                      {"path_tracing:depth=5", "bidirectional:depth=5", "light_tracing:depth=5"},
+                      24, kMost);
 }
 
 }  // namespace

@@ -86,6 +86,16 @@ TEST(ExactOptics, BeyondTheCriticalAngleAllIsReflected) {
     }
 }
 
+TEST(ExactOptics, AChannelWithoutTransmittanceIsBlackHoweverThinTheLayer) {
+    for (const double thick : {1e-9, 1e-2, 1.0}) {
+        SceneMaker maker = room(false, true, 4);
+        maker.add(layer(-thick, 0), maker.material(glass(1.0, {1.0, 0.0, 0.5})));
+        look(maker, 0.3);
+        const double way = thick / std::cos(0.3);
+        expect_near(center(maker.compile()), {1.0, 0.0, std::pow(0.5, way)}, 1e-11);
+    }
+}
+
 TEST(ExactOptics, ASlabReflectsAndPassesAllOrdersOfItsInnerReflections) {
     const Rgb kt{0.9, 0.5, 0.2};
     const double n = 1.5, thick = 2.5;

@@ -10,6 +10,7 @@
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/photon_cloud.h"
+#include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/renderers/vcm/merge_sums.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
@@ -303,6 +304,42 @@ TEST(Vcm, TellsItsPhotons) {
     double sum = 0.0;
     for (const float v : aovs.layers().find("photons")->values) sum += v / 64.0;
     EXPECT_GT(sum, 10.0);
+}
+
+/// Requests a stop after some parts.
+class StopAfter final : public ProgressSink {
+  public:
+    explicit StopAfter(std::size_t parts) : parts_(parts) {}
+    void update(std::string_view, std::size_t done, std::size_t) override {
+        if (done == parts_) stop.request();
+    }
+    StopFlag stop;
+
+  private:
+    std::size_t parts_;
+};
+
+TEST(PhotonPasses, AStopBetweenPassesKeepsTheFirstAndCountsTiles) {
+    const Scene scene = room([](SceneMaker& m) { add_lamp(m, 0.3, {9, 8, 6}); });
+    for (const char* renderer : {"sppm:photons=100", "vcm:photons=100"}) {
+        constexpr std::size_t kTiles = 4;
+        StopAfter sink(kTiles);
+        const SamplingPlan plan;
+        Film film(8, 8, {0, 0, 8, 8});
+        const RenderJob job{
+            .scene = scene,
+            .camera = scene.cameras[0].camera,
+            .samples_per_pixel = 3,
+            .sampling = &plan,
+            .control = {.threads = 1, .tile_size = 4, .stop = &sink.stop, .progress = &sink}};
+        const RenderReport report = make_renderer(renderer)->render(job, film);
+        EXPECT_FALSE(report.complete()) << renderer;
+        EXPECT_EQ(report.done, 0u) << renderer;
+        EXPECT_EQ(report.parts, kTiles) << renderer;
+        ASSERT_NE(report.sampling, nullptr);
+        EXPECT_EQ(report.sampling->rounds.size(), 1u) << renderer;
+        EXPECT_GT(mean_of(film).g, 0.0) << renderer;
+    }
 }
 
 }  // namespace

@@ -422,6 +422,36 @@ TEST(ConvertMeshes, MaterialsOfVerticesBecomeMaterialsOfFaces) {
     EXPECT_EQ(convert(maker.description(), folder.path() / "out.ply").mixed_faces, 0U);
 }
 
+TEST(ConvertMeshes, AnObjTellsWhatItLosesOfVertices) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    Material mapped{.name = "mapped"};
+    ImageTexture blue;
+    blue.image = std::make_shared<StoredImage>(
+        StoredImage{1, 1, 3, false, std::vector<std::uint8_t>{128, 128, 255}});
+    maker.description().textures.push_back({"blue", blue, {}});
+    mapped.normal_map.texture = TextureId{0};
+    const MaterialId plain = maker.material({.name = "plain"}), other = maker.material(mapped);
+    TriangleMesh mesh = testing::tetrahedron();
+    mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
+    maker.add(maker.mesh(mesh), plain);
+    EXPECT_EQ(convert(maker.description(), folder.path() / "a.obj").lost_mapped_tangents, 0U);
+    maker.add(maker.mesh(mesh), other);
+    mesh.tangents.clear();
+    mesh.colors.assign(mesh.positions.size(), {1, 1, 1, 1});
+    mesh.colors[2].a = 0.5f;
+    maker.add(maker.mesh(mesh), plain);
+    mesh.colors[2] = {0.5f, 1.5f, 1, 1};
+    maker.add(maker.mesh(mesh), plain);
+    const ConvertReport report = convert(maker.description(), folder.path() / "b.obj");
+    EXPECT_EQ(report.lost_mapped_tangents, 1U);
+    EXPECT_EQ(report.lost_alpha, 1U);
+    EXPECT_EQ(report.clamped_colors, 1U);
+    EXPECT_EQ(losses_of(report).size(), 3U + report.lost.size());
+    EXPECT_THROW((void)convert(maker.description(), folder.path() / "c.obj", {.strict = true}),
+                 Error);
+}
+
 TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
     const ScratchFolder folder;
     const auto scene = folder.write(

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "alhazen/base/error.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
@@ -47,6 +47,16 @@ TEST(Section, TheOutlineOfASphereStaysWithinTheToleranceOfItsCircle) {
         EXPECT_LT(static_cast<double>(loop.size()),
                   40 + 8 * std::numbers::pi * std::sqrt(radius / tolerance));
     }
+}
+
+TEST(Section, ThePlaneIsThatOfItsNormalOfAnyLength) {
+    for (const double size : {1e-300, 1e-200, 3.0, 1e160, 1e300}) {
+        const PlaneFrame frame = frame_of({{0, 0.6 * size, -0.8 * size}, 2 * size});
+        EXPECT_NEAR(length(frame.normal - Vec3{0, 0.6, -0.8}), 0, 1e-15) << size;
+        EXPECT_NEAR(length(frame.origin - Vec3{0, 1.2, -1.6}), 0, 1e-15) << size;
+    }
+    EXPECT_THROW((void)frame_of({{0, 0, 0}, 1}), Error);
+    EXPECT_THROW((void)frame_of({{0, 0, std::numeric_limits<double>::infinity()}, 1}), Error);
 }
 
 TEST(Section, CornersOfABoxAreFoundWithinTheTolerance) {

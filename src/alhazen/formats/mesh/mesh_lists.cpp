@@ -89,7 +89,7 @@ bool read_faces(TextNode list, std::string_view what, const ValueReader& values,
 }
 
 bool read_normals(TextNode list, std::string_view what, const ValueReader& values,
-                  TriangleMesh& mesh) {
+                  NormalLengths lengths, TriangleMesh& mesh) {
     std::vector<Vec3> normals;
     if (!read_all(list, what, values, normals)) return false;
     if (!has_one_per_vertex(list, what, mesh.positions.size(), values)) return false;
@@ -101,7 +101,7 @@ bool read_normals(TextNode list, std::string_view what, const ValueReader& value
                                      std::string(what) + ": a normal must have a direction");
             return false;
         }
-        normal = normal / size;
+        if (lengths == NormalLengths::Unit) normal = normal / size;
         ++value;
     }
     mesh.normals = std::move(normals);

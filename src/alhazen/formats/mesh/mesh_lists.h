@@ -18,9 +18,11 @@ bool read_points(TextNode list, std::string_view what, const ValueReader& values
 /// around the first vertex. Precondition: the positions are read (bounds of the indices).
 bool read_faces(TextNode list, std::string_view what, const ValueReader& values,
                 TriangleMesh& mesh);
-/// Reads `((x, y, z), ...)` into mesh.normals, normalised.
+/// Lengths of the normals that are read: they are their weights when normals are interpolated.
+enum class NormalLengths { Unit, AsWritten };
+/// Reads `((x, y, z), ...)` into mesh.normals.
 bool read_normals(TextNode list, std::string_view what, const ValueReader& values,
-                  TriangleMesh& mesh);
+                  NormalLengths lengths, TriangleMesh& mesh);
 /// Reads `((u, v), ...)` into mesh.uvs.
 bool read_uvs(TextNode list, std::string_view what, const ValueReader& values, TriangleMesh& mesh);
 

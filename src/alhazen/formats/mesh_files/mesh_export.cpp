@@ -91,6 +91,13 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
     }
 }
 
+template <class Predicate>
+std::uint64_t meshes_with_color(std::span<const NamedMesh> meshes, Predicate is_one) {
+    return std::uint64_t(std::count_if(meshes.begin(), meshes.end(), [&](const NamedMesh& from) {
+        return std::any_of(from.mesh->colors.begin(), from.mesh->colors.end(), is_one);
+    }));
+}
+
 // --- Text.
 
 void append_index(std::string& out, std::uint64_t value) {
@@ -225,6 +232,16 @@ std::uint64_t meshes_without_tangents(std::span<const NamedMesh> meshes) {
     return std::uint64_t(std::count_if(meshes.begin(), meshes.end(), [](const NamedMesh& from) {
         return from.mesh->tangents.empty();
     }));
+}
+
+std::uint64_t meshes_with_vertex_alpha(std::span<const NamedMesh> meshes) {
+    return meshes_with_color(meshes, [](const VertexColor& c) { return c.a < 1.0f; });
+}
+
+std::uint64_t meshes_with_colors_beyond_one(std::span<const NamedMesh> meshes) {
+    return meshes_with_color(meshes, [](const VertexColor& c) {
+        return std::min({c.r, c.g, c.b}) < 0.0f || std::max({c.r, c.g, c.b}) > 1.0f;
+    });
 }
 
 std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes) {

@@ -42,6 +42,9 @@ struct NamedMesh {
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
 [[nodiscard]] std::uint64_t meshes_without_tangents(std::span<const NamedMesh> meshes);
+/// The number of meshes whose vertex colours have an alpha below 1, or a channel beyond 0 to 1.
+[[nodiscard]] std::uint64_t meshes_with_vertex_alpha(std::span<const NamedMesh> meshes);
+[[nodiscard]] std::uint64_t meshes_with_colors_beyond_one(std::span<const NamedMesh> meshes);
 /// The number of faces between vertices of different materials.
 [[nodiscard]] std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes);
 

@@ -148,7 +148,8 @@ class MtlWriter {
         scalar("Pr", "map_Pr", mr.roughness);
         if (mr.coat.strength.value > 0.0) coat(mr.coat);
         number("Ni", m.index.value);
-        if (m.index.value < 1.0 && mr.metallic.value < 1.0) {
+        const bool all_metal = mr.metallic.value >= 1.0 && mr.metallic.texture == kNoTexture;
+        if (m.index.value < 1.0 && !all_metal) {
             lose("an index of refraction below 1 beside metallic-roughness parameters");
         }
         if (mr.transmission.value > 0.0) {

@@ -52,15 +52,13 @@ std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
     if (readable) {
         context.count_elements(mesh->positions.size() + mesh->triangles.size(),
                                reader.block().location());
-        if (normals) read_normals(*normals, "normals", reader.values(), *mesh);
+        if (normals)
+            read_normals(*normals, "normals", reader.values(), NormalLengths::AsWritten, *mesh);
         read_vertex_materials(reader, materials, material, *mesh);
     } else {
         reader.ignore("materials");
     }
-    // The programs of the course give each face the same weight.
-    if (wants_normals(reader) && readable) {
-        mesh->generate_normals(TriangleMesh::NormalWeights::Equal);
-    }
+    if (wants_normals(reader) && readable) mesh->generate_mean_normals();
     report_other_items(reader, context.diagnostics);
     if (!readable) return std::nullopt;
     context.scene.meshes.push_back({"", std::move(mesh), reader.block().location()});

@@ -9,8 +9,9 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfIO.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
@@ -52,6 +53,21 @@ class MemoryInput final : public Imf::IStream {
     std::string_view bytes_;
     std::size_t position_ = 0;
 };
+
+/// The first part with colours, else the first with a luminance, else the first.
+int part_to_read(const Imf::MultiPartInputFile& file) {
+    const auto first_with = [&](std::initializer_list<const char*> channels) {
+        for (int part = 0; part < file.parts(); ++part) {
+            const Imf::ChannelList& list = file.header(part).channels();
+            for (const char* channel : channels) {
+                if (list.findChannel(channel) != nullptr) return part;
+            }
+        }
+        return -1;
+    };
+    if (const int colours = first_with({"R", "G", "B"}); colours >= 0) return colours;
+    return std::max(first_with({"Y"}), 0);
+}
 
 std::vector<std::string> channel_names(const Imf::ChannelList& list, const std::string& name) {
     std::vector<std::string> names;
@@ -95,7 +111,7 @@ HeldPixels held_pixels(const Imath::Box2i& data, const ExrWindow& display) {
 
 /// Decodes the rows of `held` in bands, so that a file that ends early takes memory only for the
 /// data it has.
-void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels,
+void read_bands(Imf::InputPart& file, const std::vector<std::string>& channels,
                 const ExrWindow& display, const HeldPixels& held, Image& image) {
     const Imath::Box2i window = file.header().dataWindow();
     const std::size_t data_width = std::size_t(window.max.x - window.min.x + 1);
@@ -132,10 +148,13 @@ void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels,
 Image read_exr(const ExrHeader& header, std::string_view bytes, const std::string& name,
                const ImageLimits& limits) {
     MemoryInput stream(header.bytes, bytes, name);
-    Imf::InputFile file(stream, 0);
+    Imf::MultiPartInputFile parts(stream, 0);
+    const int number = part_to_read(parts);
+    const ExrPart& checked = header.parts.at(std::size_t(number));
+    Imf::InputPart file(parts, number);
     const Imath::Box2i window = file.header().dataWindow();
     const std::int64_t data_width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t width = header.display.width(), height = header.display.height();
+    const std::int64_t width = checked.display.width(), height = checked.display.height();
     check_image_size(width, height, limits, name);
     const std::vector<std::string> channels = channel_names(file.header().channels(), name);
     for (const std::string& channel : channels) {
@@ -149,15 +168,15 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
                       "the EXR channel " + channel + " holds integers, expected half or float");
         }
     }
-    const HeldPixels held = held_pixels(window, header.display);
+    const HeldPixels held = held_pixels(window, checked.display);
     // The decoder's buffers, checked with the header, are in memory at the same time.
     const std::uint64_t all =
-        sample_bytes(width, height, channels.size(), sizeof(float)) + header.decoder_bytes +
+        sample_bytes(width, height, channels.size(), sizeof(float)) + checked.decoder_bytes +
         sample_bytes(data_width, band_rows(held.height), channels.size(), sizeof(float));
     check_image_memory(all, limits, name);
     Image image = reserved_image(int(width), int(height), int(channels.size()), true, limits, name);
     image.associated = image.channels == 2 || image.channels == 4;
-    if (held.width > 0) read_bands(file, channels, header.display, held, image);
+    if (held.width > 0) read_bands(file, channels, checked.display, held, image);
     image.samples.resize(std::size_t(width) * std::size_t(height) * channels.size());
     if (held.width < image.width || held.height < image.height) image.held = held;
     return image;

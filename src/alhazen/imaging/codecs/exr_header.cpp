@@ -192,24 +192,19 @@ ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
     }
     if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
     std::vector<std::string_view> ignored;
-    int parts = 0;
-    std::uint64_t first_part_bytes = 0;
-    ExrWindow display;
+    std::vector<ExrPart> parts;
     for (PartHeader part; read_part(reader, ignored, limits, part); part = {}) {
-        if (++parts == 1) {
-            first_part_bytes = decoder_bytes(part);
-            display = part.display.value_or(part.data);
-            check_image_memory(first_part_bytes, limits, name);
-        }
+        parts.push_back({part.display.value_or(part.data), decoder_bytes(part)});
+        check_image_memory(parts.back().decoder_bytes, limits, name);
         if ((version & kMultiPartFlag) == 0) break;
-        if (parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
+        if (parts.size() > kMaxParts) bad_image(name, "damaged EXR: too many parts");
     }
-    if (parts == 0) bad_image(name, "damaged EXR: the header is empty");
+    if (parts.empty()) bad_image(name, "damaged EXR: the header is empty");
     std::string header(bytes.substr(0, reader.position()));
     for (const std::string_view type : ignored) {
         header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');
     }
-    return {std::move(header), display, first_part_bytes};
+    return {std::move(header), std::move(parts)};
 }
 
 }  // namespace alhazen

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "alhazen/imaging/codecs/image_io.h"
 
@@ -22,12 +23,16 @@ struct ExrWindow {
     [[nodiscard]] std::int64_t height() const { return y1 - y0 + 1; }
 };
 
+struct ExrPart {
+    ExrWindow display;  ///< the data window if the file states none
+    /// Upper bound of the library's allocations for decoding it: a run of rows or a tile (packed,
+    /// unpacked and being unpacked), and a row of tiles.
+    std::uint64_t decoder_bytes = 0;
+};
+
 struct ExrHeader {
     std::string bytes;
-    ExrWindow display;  ///< of the first part; the data window if the file states none
-    /// Upper bound of the library's allocations for decoding the first part: a run of rows or a
-    /// tile (packed, unpacked and being unpacked), and a row of tiles.
-    std::uint64_t decoder_bytes = 0;
+    std::vector<ExrPart> parts;  ///< at least one
 };
 
 /// The start of the file up to the end of the header. Attributes that decoding does not need get an

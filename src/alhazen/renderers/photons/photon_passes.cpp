@@ -119,8 +119,8 @@ bool PhotonPasses::look(const Begin& begin) {
 }
 
 RenderReport& PhotonPasses::stopped() {
-    report_.parts = count_;
-    report_.done = done_;
+    report_.parts = std::max<std::size_t>(report_.parts, 1);
+    report_.done = 0;
     return report_;
 }
 

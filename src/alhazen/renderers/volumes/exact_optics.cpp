@@ -16,9 +16,10 @@ namespace {
 
 using RefractionTint = ShadingConventions::RefractionTint;
 
-/// The solution a of exp(-a) = kt, with kt at least 1e-12: a black channel has finite absorption.
+/// The solution a of exp(-a) = kt. That of kt = 0 is finite, so that its product with a distance of
+/// 0 is 0, and so large that no other distance transmits anything.
 Rgb absorption_of_unit_length(const Rgb& kt) {
-    const auto of = [](double k) { return -std::log(std::clamp(k, 1e-12, 1.0)); };
+    const auto of = [](double k) { return k > 0.0 ? -std::log(std::min(k, 1.0)) : 1e300; };
     return {of(kt.r), of(kt.g), of(kt.b)};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 
 #include "alhazen/base/error.h"
@@ -158,6 +159,27 @@ std::string write_materials(const SceneDescription& description,
     return name.string();
 }
 
+/// The number of meshes with tangents that a normal map uses. `names` [material].
+std::uint64_t meshes_that_use_tangents(const SceneDescription& description,
+                                       std::span<const std::string> names,
+                                       std::span<const NamedMesh> meshes) {
+    std::set<std::string_view> mapped;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Material& material = description.materials[i].material;
+        const bool coat = material.metallic_roughness &&
+                          material.metallic_roughness->coat.normal_map.texture != kNoTexture;
+        if (coat || material.normal_map.texture != kNoTexture) mapped.insert(names[i]);
+    }
+    const auto uses = [&](const NamedMesh& from) {
+        if (from.mesh->tangents.empty()) return false;
+        if (from.mesh->vertex_materials.empty()) return mapped.contains(from.material);
+        return std::any_of(
+            from.mesh->vertex_materials.begin(), from.mesh->vertex_materials.end(),
+            [&](std::uint32_t m) { return mapped.contains(from.vertex_material_names[m]); });
+    };
+    return std::uint64_t(std::count_if(meshes.begin(), meshes.end(), uses));
+}
+
 ConvertReport write_meshes(const SceneDescription& description, const std::string& suffix,
                            const fs::path& path, const ConvertOptions& options,
                            ConvertOutput& output) {
@@ -177,6 +199,9 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
         bytes = stl_bytes(meshes);
     } else if (suffix == ".obj") {
         output.report().mixed_faces = faces_of_several_materials(meshes);
+        output.report().lost_mapped_tangents = meshes_that_use_tangents(description, names, meshes);
+        output.report().lost_alpha = meshes_with_vertex_alpha(meshes);
+        output.report().clamped_colors = meshes_with_colors_beyond_one(meshes);
         bytes = obj_text(meshes, write_materials(description, names, output));
         bytes += obj_surfaces_text(surfaces);
     } else if (meshes.size() == 1 && meshes.front().placement == Affine{} &&
@@ -219,7 +244,8 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
 }  // namespace
 
 std::vector<std::string> losses_of(const ConvertReport& report) {
-    const auto counted = [](std::uint64_t n, const char* what) {
+    const auto counted = [](std::uint64_t n, const char* what, const char* several = nullptr) {
+        if (n != 1 && several != nullptr) return fmt::format("{} {}", n, several);
         return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
     std::vector<std::string> lines;
@@ -237,9 +263,27 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
     }
     if (report.lost_tangents > 0) {
         lines.push_back(
-            fmt::format("a PLY has tangents if all meshes have them: those of {} {} are left out "
+            fmt::format("a PLY has tangents if all meshes have them: those of {} are left out "
                         "(.alhazen keeps them)",
-                        report.lost_tangents, report.lost_tangents == 1 ? "mesh" : "meshes"));
+                        counted(report.lost_tangents, "mesh", "meshes")));
+    }
+    if (report.lost_mapped_tangents > 0) {
+        lines.push_back(
+            fmt::format("an OBJ has no tangents, which normal maps use: those of {} are left out "
+                        "(.alhazen keeps them)",
+                        counted(report.lost_mapped_tangents, "mesh", "meshes")));
+    }
+    if (report.lost_alpha > 0) {
+        lines.push_back(
+            fmt::format("vertices of an OBJ have no alpha: that of {} is left out (.alhazen and "
+                        ".ply keep it)",
+                        counted(report.lost_alpha, "mesh", "meshes")));
+    }
+    if (report.clamped_colors > 0) {
+        lines.push_back(
+            fmt::format("vertex colours of an OBJ are from 0 to 1: those of {} are clamped "
+                        "(.alhazen and .ply keep them)",
+                        counted(report.clamped_colors, "mesh", "meshes")));
     }
     if (report.mixed_faces > 0) {
         lines.push_back(

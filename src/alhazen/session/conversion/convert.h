@@ -38,8 +38,11 @@ struct ConvertReport {
     double moment = 0;               ///< at which the moving parts are written: the shutter opens
     /// OBJ: faces whose vertices have different materials; each has that of its first vertex.
     std::uint64_t mixed_faces = 0;
-    std::uint64_t lost_tangents = 0;  ///< PLY: placed meshes whose tangents are lost
-    std::string left_out;             ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
+    std::uint64_t lost_tangents = 0;         ///< PLY: placed meshes whose tangents are lost
+    std::uint64_t lost_mapped_tangents = 0;  ///< OBJ: the same, if a normal map uses them
+    /// OBJ: placed meshes whose vertex colours lose their alpha, or are clamped to 0 to 1.
+    std::uint64_t lost_alpha = 0, clamped_colors = 0;
+    std::string left_out;  ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
     /// OBJ: material properties that MTL cannot express, one line each.
     std::vector<std::string> lost;
 };

@@ -132,16 +132,33 @@ UvDerivatives TriangleMesh::uv_derivatives(std::size_t triangle,
     return is_finite(result.dpdu) && is_finite(result.dpdv) ? result : UvDerivatives{};
 }
 
-void TriangleMesh::generate_normals(NormalWeights weights) {
+void TriangleMesh::generate_normals() {
     normals.assign(positions.size(), Vec3{});
     for (const auto& triangle : triangles) {
         const Vec3& p0 = positions[triangle[0]];
         const Vec3 area = cross(positions[triangle[1]] - p0, positions[triangle[2]] - p0);
-        const Vec3 normal = weights == NormalWeights::Area ? area : unit_or(area, {});
-        for (const std::uint32_t vertex : triangle) normals[vertex] += normal;
+        for (const std::uint32_t vertex : triangle) normals[vertex] += area;
     }
     // A vertex without area keeps a zero normal; its triangles have flat shading there.
     for (Vec3& normal : normals) normal = unit_or(normal, {});
+}
+
+void TriangleMesh::generate_mean_normals() {
+    normals.assign(positions.size(), Vec3{});
+    std::vector<double> counts(positions.size());
+    for (const auto& triangle : triangles) {
+        const Vec3& p0 = positions[triangle[0]];
+        const Vec3 normal =
+            unit_or(cross(positions[triangle[1]] - p0, positions[triangle[2]] - p0), {});
+        if (normal == Vec3{}) continue;
+        for (const std::uint32_t vertex : triangle) {
+            normals[vertex] += normal;
+            ++counts[vertex];
+        }
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (counts[i] > 0) normals[i] = normals[i] / counts[i];
+    }
 }
 
 void TriangleMesh::transform(const Affine& to_from) {

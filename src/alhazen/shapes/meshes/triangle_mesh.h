@@ -54,11 +54,13 @@ struct TriangleMesh {
     /// are merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 
-    /// How much a triangle counts in the normal of its vertices.
-    enum class NormalWeights { Area, Equal };
-    /// Sets each normal to the normalised weighted sum of the normals of the vertex's triangles;
-    /// those without area do not count.
-    void generate_normals(NormalWeights weights = NormalWeights::Area);
+    /// Sets each normal to the normalised sum of the normals of the vertex's triangles, weighted by
+    /// their areas.
+    void generate_normals();
+    /// Sets each normal to the mean of the unit normals of the vertex's triangles. It is shorter
+    /// than 1 where they differ, and so has less weight when normals are interpolated. Triangles
+    /// without area do not count.
+    void generate_mean_normals();
     /// Applies a transform to positions, tangents and (by the inverse transpose) to normals.
     void transform(const Affine& to_from);
 };

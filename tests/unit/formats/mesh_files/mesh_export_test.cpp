@@ -367,6 +367,10 @@ TEST(MeshExport, EveryPropertyThatMtlLacksIsTold) {
         m.metallic_roughness.emplace().metallic.value = 0;
         m.index.value = 0.5;
     });
+    told("index of refraction below 1", [](Material& m) {
+        m.metallic_roughness.emplace().metallic.texture = TextureId{0};
+        m.index.value = 0.5;
+    });
 }
 
 TEST(MeshExport, AFaceHasTheMaterialOfItsFirstVertex) {

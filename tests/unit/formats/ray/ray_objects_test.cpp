@@ -126,7 +126,19 @@ TEST(RayImporter, GeneratedNormalsAreMeansOfUnitNormals) {
         "trimesh { points = ((0,0,0),(1,0,0),(0,9,0),(0,0,1)); faces = ((0,1,2),(0,3,1),(0,0,1)); "
         "gennormals; }");
     ASSERT_EQ(i.scene.meshes.size(), 1u) << i.messages();
-    expect_near(i.scene.meshes[0].mesh->normals.at(0), Vec3{0, 1, 1} / std::sqrt(2.0));
+    // Its faces' normals are z, y and none.
+    expect_near(i.scene.meshes[0].mesh->normals.at(0), Vec3{0, 0.5, 0.5});
+    expect_near(i.scene.meshes[0].mesh->normals.at(2), Vec3{0, 0, 1});
+}
+
+TEST(RayImporter, NormalsKeepTheLengthsWithWhichTheyAreInterpolated) {
+    const Imported i = import_ray(
+        "trimesh { points = ((0,0,0),(1,0,0),(0,1,0)); faces = ((0,1,2)); "
+        "normals = ((3,0,0),(0,0,1),(0,0,1)); }");
+    ASSERT_EQ(i.errors(), 0u) << i.messages();
+    const ShapeSurface surface =
+        i.scene.meshes.at(0).mesh->surface(0, {1, 0, 0.5, 0});
+    expect_near(surface.shading_normal, Vec3{3, 0, 1} / std::sqrt(10.0));
 }
 
 TEST(RayImporter, ReadsNormalsAndMaterialsAtTheVertices) {
@@ -136,7 +148,7 @@ TEST(RayImporter, ReadsNormalsAndMaterialsAtTheVertices) {
         "materials = (a, { diffuse = (0,1,0) }, a, a); }");
     ASSERT_EQ(i.errors(), 0u) << i.messages();
     const TriangleMesh& mesh = *i.scene.meshes.at(0).mesh;
-    expect_near(mesh.normals.at(3), {0, 1, 0});
+    expect_near(mesh.normals.at(3), {0, 2, 0});
     ASSERT_EQ(mesh.vertex_materials.size(), 4u);
     EXPECT_EQ(mesh.vertex_materials[0], mesh.vertex_materials[2]);
     EXPECT_EQ(i.scene.materials[mesh.vertex_materials[1]].material.diffuse.color, (Rgb{0, 1, 0}));

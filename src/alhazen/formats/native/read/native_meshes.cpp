@@ -18,7 +18,7 @@ void read_inline_mesh(BlockReader& reader, TriangleMesh& mesh) {
     const auto normals = reader.find("normals"), uvs = reader.find("uvs");
     if (!points || !read_points(*points, "points", reader.values(), mesh)) return;
     if (faces) read_faces(*faces, "faces", reader.values(), mesh);
-    if (normals) read_normals(*normals, "normals", reader.values(), mesh);
+    if (normals) read_normals(*normals, "normals", reader.values(), NormalLengths::Unit, mesh);
     if (uvs) read_uvs(*uvs, "uvs", reader.values(), mesh);
 }
 
