@@ -177,9 +177,9 @@ class SortedStream {
         const WideNodeOf<W>& node = nodes_[NodeRef::from_bits(slot.stack.child[height]).index()];
         stats_.nodes(1);
         stats_.boxes(node.child_count());
-        Lanes<float, W> entries;
-        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
-        slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, hit,
+        Lanes<float, W> entries, exits;
+        cross_children(node, query.slabs, query.s_max, entries, exits);
+        slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                                 query.slabs.near.octant);
     }
     HWY_INLINE void visit_leaf(Slot& slot) {

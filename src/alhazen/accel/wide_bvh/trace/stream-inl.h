@@ -129,9 +129,9 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
         const WideNodeOf<W>& node = nodes[ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
-        Lanes<float, W> entries;
-        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
-        height = stack.template push<Query::kOrdered>(height, node, entries, hit,
+        Lanes<float, W> entries, exits;
+        cross_children(node, query.slabs, query.s_max, entries, exits);
+        height = stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                       query.slabs.near.octant);
     }
     slot.height = height;
