@@ -119,6 +119,20 @@ struct LeafQuery {
         }
         return true;
     }
+    /// As `visit_later`, for the first block of a leaf alone.
+    template <class Stats>
+    HWY_INLINE void filter_block(NodeRef ref, Stats stats) {
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                return filter_triangle_block(ref, stats);
+            case LeafType::Spheres:
+                return filter_later(scene.layout->spheres[ref.offset()], stats);
+            case LeafType::Frustums:
+                return filter_later(scene.layout->frustums[ref.offset()], stats);
+            case LeafType::Others:
+                return filter_later(scene.layout->others[ref.offset()], stats);
+        }
+    }
     template <class Stats>
     HWY_INLINE bool settle(Stats stats) {
         return later_.settle([&](const auto& block, const FilteredShapes& found, std::uint32_t rest)
@@ -230,6 +244,23 @@ struct LeafQuery {
         } else {
             return visit(ref, stats);
         }
+    }
+
+    template <class Stats>
+    HWY_INLINE void filter_triangle_block(NodeRef ref, Stats stats) {
+        if (HWY_UNLIKELY(blocks == nullptr)) return (void)visit_index_block(ref, stats);
+        const TriangleBlock& block = blocks[ref.offset()];
+        stats.primitives(used_lanes(block));
+        if constexpr (defers_triangles()) {
+            (void)filter_triangles<true>(block, filter, slabs.s_min, s_max, later_.triangles);
+            later_.set(block);
+        } else {
+            (void)visit_block(block, stats);
+        }
+    }
+    template <class Block, class Stats>
+    HWY_INLINE void filter_later(const Block& block, Stats stats) {
+        later_.set(block, filter_shapes<true>(block, later_.found, stats));
     }
 
     template <class Block, class Stats>
@@ -351,6 +382,10 @@ struct LeafQuery {
             if (visit_indices(blocks[i], stats)) return true;
         }
         return false;
+    }
+    template <class Stats>
+    HWY_NOINLINE bool visit_index_block(NodeRef ref, Stats stats) {
+        return visit_indices(scene.layout->indices[ref.offset()], stats);
     }
     template <class Stats>
     HWY_INLINE bool visit_indices(const IndexBlock& block, Stats stats) {

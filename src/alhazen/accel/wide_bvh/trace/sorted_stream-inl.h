@@ -144,6 +144,8 @@ class SortedStream {
     /// a long chain of operations; what waits for its end keeps the processor from running ahead.
     static constexpr std::size_t kNodesBehind = 5, kLeavesBehind = 2;
 
+    static constexpr std::uint32_t kNextBlock = 1u - (1u << 25);
+
     HWY_INLINE void start(Slot& slot) {
         if (!source_.start(slot.place)) return;
         slot.begin(root_);
@@ -184,8 +186,11 @@ class SortedStream {
     }
     HWY_INLINE void visit_leaf(Slot& slot) {
         if (HWY_UNLIKELY(is_beyond(slot))) return;
-        const std::size_t height = --slot.height;
-        slot.query().visit_later(NodeRef::from_bits(slot.stack.child[height]), stats_);
+        const std::size_t top = slot.height - 1;
+        const NodeRef leaf = NodeRef::from_bits(slot.stack.child[top]);
+        slot.stack.child[top] = leaf.bits() + kNextBlock;
+        slot.height = top + (leaf.count() > 1);
+        slot.query().filter_block(leaf, stats_);
     }
     HWY_INLINE void settle(Slot& slot) {
         slot.query().settle(stats_);
