@@ -76,6 +76,32 @@ struct NodeStack {
         }
     }
 
+    /// Removes what begins beyond `s_max`; the height that is left.
+    template <std::size_t kRegisters = kParts<float, W>>
+    [[nodiscard]] HWY_INLINE std::size_t drop_beyond(std::size_t height, float s_max) {
+        std::size_t left = 1;  // the sentinel stays
+        if constexpr (kRegisters == 1) {
+            const Tag d;
+            const auto most = hn::Set(d, s_max);
+            for (std::size_t i = 1; i < height; i += W) {
+                const auto near = hn::LoadU(d, entry + i);
+                const auto children = hn::LoadU(d, reinterpret_cast<const float*>(child + i));
+                const auto mask = hn::And(hn::Le(near, most), hn::FirstN(d, height - i));
+                const auto first = first_lanes(mask);
+                hn::StoreU(first(near), d, entry + left);
+                hn::StoreU(first(children), d, reinterpret_cast<float*>(child + left));
+                left += hn::CountTrue(d, mask);
+            }
+        } else {
+            for (std::size_t i = 1; i < height; ++i) {
+                entry[left] = entry[i];
+                child[left] = child[i];
+                left += entry[i] <= s_max;
+            }
+        }
+        return left;
+    }
+
     /// Pushes the children that are hit but for the nearest, which it returns: the others by the
     /// order of the octant, the farthest first. `bits` are those of `hit`, at least two.
     template <std::size_t kRegisters = kParts<float, W>>

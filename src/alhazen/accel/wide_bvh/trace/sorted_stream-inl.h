@@ -144,8 +144,6 @@ class SortedStream {
     /// a long chain of operations; what waits for its end keeps the processor from running ahead.
     static constexpr std::size_t kNodesBehind = 5, kLeavesBehind = 2;
 
-    static constexpr std::uint32_t kNextBlock = 1u - (1u << 25);
-
     HWY_INLINE void start(Slot& slot) {
         if (!source_.start(slot.place)) return;
         slot.begin(root_);
@@ -157,23 +155,7 @@ class SortedStream {
         prefetch_table_.prefetch(next);
         lists_.add(kNextSteps[waits][next >> 28], slot);
     }
-    /// Removes what lies beyond the end of the ray.
-    HWY_INLINE void drop_beyond(Slot& slot) {
-        const float s_max = slot.query().s_max;
-        std::size_t height = slot.height;
-        do {
-            --height;
-        } while (slot.stack.entry[height] > s_max);
-        slot.height = height + 1;
-    }
-    /// The same if the next subtree lies beyond the end of the ray, which it rarely does.
-    HWY_INLINE bool is_beyond(Slot& slot) {
-        if (HWY_LIKELY(!(slot.stack.entry[slot.height - 1] > slot.query().s_max))) return false;
-        drop_beyond(slot);
-        return true;
-    }
     HWY_INLINE void visit_node(Slot& slot) {
-        if (HWY_UNLIKELY(is_beyond(slot))) return;
         Query& query = slot.query();
         const std::size_t height = slot.height - 1;
         const WideNodeOf<W>& node = nodes_[NodeRef::from_bits(slot.stack.child[height]).index()];
@@ -185,17 +167,25 @@ class SortedStream {
                                                                 query.slabs.near.octant);
     }
     HWY_INLINE void visit_leaf(Slot& slot) {
-        if (HWY_UNLIKELY(is_beyond(slot))) return;
         const std::size_t top = slot.height - 1;
         const NodeRef leaf = NodeRef::from_bits(slot.stack.child[top]);
-        slot.stack.child[top] = leaf.bits() + kNextBlock;
+        slot.stack.child[top] = leaf.after_first_block().bits();
         slot.height = top + (leaf.count() > 1);
-        slot.query().filter_block(leaf, stats_);
+        Query& query = slot.query();
+        const float s_max = query.s_max;
+        query.filter_block(leaf, stats_);
+        if (query.s_max < s_max) drop_beyond(slot);
     }
     HWY_INLINE void settle(Slot& slot) {
-        slot.query().settle(stats_);
-        drop_beyond(slot);
+        Query& query = slot.query();
+        const float s_max = query.s_max;
+        query.settle(stats_);
+        if (query.s_max < s_max) drop_beyond(slot);
         queue(slot);
+    }
+    /// Removes the subtrees beyond the end of the ray, when that has moved: the visits need not ask.
+    HWY_INLINE void drop_beyond(Slot& slot) {
+        slot.height = slot.stack.drop_beyond(slot.height, slot.query().s_max);
     }
 
     const WideNodeOf<W>* nodes_;
