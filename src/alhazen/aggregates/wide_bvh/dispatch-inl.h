@@ -19,7 +19,6 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
-#include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
 
@@ -170,12 +169,7 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
-    if constexpr (Query::kOrdered) {
-        traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
-    } else {
-        // Rays for any hit end early: lists cost more than they gain.
-        traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
-    }
+    traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
     source.finish_all(stats);
 }
 

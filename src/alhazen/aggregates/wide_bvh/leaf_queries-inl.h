@@ -101,27 +101,11 @@ struct LeafQuery {
         }
         return true;
     }
-    /// As `visit`, for several rays in turn: the last block is only filtered, and `settle` does the
-    /// rest in the next turn. Branches on the filter's result are then decided at once, where they
-    /// would wait for it, and a wrong guess discards little work.
+    /// As `visit`, for the first block of a leaf and several rays in turn: it is only filtered, and
+    /// `settle` does the rest in a step of its own. Branches on the filter's result are then
+    /// decided at once, where they would wait for it, and a wrong guess discards little work.
     template <class Stats>
-    HWY_INLINE bool visit_later(NodeRef ref, Stats stats) {
-        const std::uint32_t count = ref.count();
-        switch (static_cast<LeafType>(ref.kind())) {
-            case LeafType::Triangles:
-                return filter_last_triangles(ref, stats);
-            case LeafType::Spheres:
-                return filter_last(&scene.layout->spheres[ref.offset()], count, stats);
-            case LeafType::Frustums:
-                return filter_last(&scene.layout->frustums[ref.offset()], count, stats);
-            case LeafType::Others:
-                return filter_last(&scene.layout->others[ref.offset()], count, stats);
-        }
-        return true;
-    }
-    /// As `visit_later`, for the first block of a leaf alone.
-    template <class Stats>
-    HWY_INLINE void filter_block(NodeRef ref, Stats stats) {
+    HWY_INLINE bool filter_block(NodeRef ref, Stats stats) {
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles:
                 return filter_triangle_block(ref, stats);
@@ -132,6 +116,7 @@ struct LeafQuery {
             case LeafType::Others:
                 return filter_later(scene.layout->others[ref.offset()], stats);
         }
+        return true;
     }
     template <class Stats>
     HWY_INLINE bool settle(Stats stats) {
@@ -139,7 +124,7 @@ struct LeafQuery {
                                  HWY_ATTR { return visit_found(block, found, rest, stats); },
                              [&](const TriangleBlock& block, const FilteredTriangles& found)
                                  HWY_ATTR {
-                                     if constexpr (defers_triangles()) {
+                                     if constexpr (Test::kExact) {
                                          return query().triangles(block, found, stats);
                                      }
                                      return false;
@@ -191,10 +176,6 @@ struct LeafQuery {
     }
 
   private:
-    /// Whether a block of triangles is settled in the next turn. A ray for any hit ends at most of
-    /// what the filter finds.
-    static constexpr bool defers_triangles() { return Test::kExact && Query::kOrdered; }
-
     FilteredLater later_;
 
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
@@ -227,42 +208,25 @@ struct LeafQuery {
         return false;
     }
 
-    /// As filter_last, for triangles.
     template <class Stats>
-    HWY_INLINE bool filter_last_triangles(NodeRef ref, Stats stats) {
-        if constexpr (defers_triangles()) {
-            if (HWY_UNLIKELY(blocks == nullptr)) return visit_indices(ref, stats);
-            const TriangleBlock* block = blocks + ref.offset();
-            for (const TriangleBlock* last = block + (ref.count() - 1); block < last; ++block) {
-                stats.primitives(used_lanes(*block));
-                if (visit_block(*block, stats)) return true;
-            }
-            stats.primitives(used_lanes(*block));
-            (void)filter_triangles<true>(*block, filter, slabs.s_min, s_max, later_.triangles);
-            later_.set(*block);
-            return false;
-        } else {
-            return visit(ref, stats);
-        }
-    }
-
-    template <class Stats>
-    HWY_INLINE void filter_triangle_block(NodeRef ref, Stats stats) {
-        if (HWY_UNLIKELY(blocks == nullptr)) return (void)visit_index_block(ref, stats);
+    HWY_INLINE bool filter_triangle_block(NodeRef ref, Stats stats) {
+        if (HWY_UNLIKELY(blocks == nullptr)) return visit_index_block(ref, stats);
         const TriangleBlock& block = blocks[ref.offset()];
         stats.primitives(used_lanes(block));
-        if constexpr (defers_triangles()) {
+        if constexpr (Test::kExact) {
             (void)filter_triangles<true>(block, filter, slabs.s_min, s_max, later_.triangles);
             later_.set(block);
+            return false;
         } else {
-            (void)visit_block(block, stats);
+            return visit_block(block, stats);
         }
     }
+    /// Leaves what the filter finds to `settle`.
     template <class Block, class Stats>
-    HWY_INLINE void filter_later(const Block& block, Stats stats) {
+    HWY_INLINE bool filter_later(const Block& block, Stats stats) {
         later_.set(block, filter_shapes<true>(block, later_.found, stats));
+        return false;
     }
-
     template <class Block, class Stats>
     HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
@@ -270,14 +234,6 @@ struct LeafQuery {
             const std::uint32_t rest = filter_shapes<false>(*blocks, found, stats);
             if (rest != 0 && visit_found(*blocks, found, rest, stats)) return true;
         }
-        return false;
-    }
-    /// As visit_shapes, but leaves what the filter of the last block finds to `settle`.
-    template <class Block, class Stats>
-    HWY_INLINE bool filter_last(const Block* blocks, std::uint32_t count, Stats stats) {
-        if (count > 1 && visit_shapes(blocks, count - 1, stats)) return true;
-        const Block& last = blocks[count - 1];
-        later_.set(last, filter_shapes<true>(last, later_.found, stats));
         return false;
     }
     template <bool kAtOnce, class Block, class Stats>

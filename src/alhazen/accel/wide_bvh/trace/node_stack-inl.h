@@ -205,8 +205,8 @@ struct NodeStack {
         if constexpr (kOrdered) {
             const hn::RebindToSigned<Tag> di;
             const auto places = hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant)));
-            return push_in_order(
-                [&](const auto& v) HWY_ATTR { return hn::TableLookupLanes(v, places); });
+            return push_in_order([&](const auto& v)
+                                     HWY_ATTR { return hn::TableLookupLanes(v, places); });
         } else {
             return push_in_order([&](const auto& v) HWY_ATTR { return hn::Reverse(d, v); });
         }

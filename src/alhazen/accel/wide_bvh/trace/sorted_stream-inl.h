@@ -1,13 +1,17 @@
-/// The stream of rays for closest hits: as stream-inl.h, but rays wait in lists by what they do
-/// next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
+/// The stream kernel of the wide BVH: arbitrary rays, interleaved, that wait in lists by what they
+/// do next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
 ///
 /// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015;
 /// Tsakok, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing", HPG 2009 (rays of a stream
 /// sorted by their next step).
-/// Differs: each ray has a stack of its own and visits its children nearest first.
-/// Conventions: included once per target (see simd/lanes-inl.h). `Query` and `Source` are those of
-/// stream-inl.h; `Query` has `visit_later` and `settle`, which never end the ray, and `waits()`,
-/// which is true if `settle` has anything to do.
+/// Differs: each ray has a stack of its own and visits its children nearest first, or for any hit
+/// in the order of the tree.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Query` has `filter_block(NodeRef,
+/// stats)`, which begins the test of the first block of a leaf; `settle(stats)`, which ends it, in
+/// a step of its own, if `waits()` is true; both return true to stop. Both may lower `s_max`, the
+/// parameter up to which hits are searched. `slabs` is the ray. `Source` has `start(void* place)`,
+/// which constructs the query of the next ray there and returns false if there is none, and
+/// `finish(query, stats)`, called after its last leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
@@ -110,9 +114,9 @@ class SortedStream {
     HWY_INLINE void run() {
         for (Slot& slot : slots_) start(slot);
         while (true) {
-            lists_.template take<kNodesBehind>(NextStep::Node,
-                                               [&](Slot& slot) HWY_ATTR { visit_node(slot); },
-                                               [&](Slot& slot) HWY_ATTR { queue(slot); });
+            lists_.template take<kNodesBehind>(
+                NextStep::Node, [&](Slot& slot) HWY_ATTR { visit_node(slot); },
+                [&](Slot& slot) HWY_ATTR { queue(slot); });
             const bool idle = lists_.count(NextStep::Node) == 0;
             const std::size_t leaves = lists_.count(NextStep::Leaf);
             if (leaves >= kEnough || (idle && leaves > 0)) {
@@ -173,17 +177,21 @@ class SortedStream {
         slot.height = top + (leaf.count() > 1);
         Query& query = slot.query();
         const float s_max = query.s_max;
-        query.filter_block(leaf, stats_);
+        if (query.filter_block(leaf, stats_)) return slot.stop();
         if (query.s_max < s_max) drop_beyond(slot);
     }
     HWY_INLINE void settle(Slot& slot) {
         Query& query = slot.query();
         const float s_max = query.s_max;
-        query.settle(stats_);
-        if (query.s_max < s_max) drop_beyond(slot);
+        if (query.settle(stats_)) {
+            slot.stop();
+        } else if (query.s_max < s_max) {
+            drop_beyond(slot);
+        }
         queue(slot);
     }
-    /// Removes the subtrees beyond the end of the ray, when that has moved: the visits need not ask.
+    /// Removes the subtrees beyond the end of the ray, when that has moved: the visits need not
+    /// ask.
     HWY_INLINE void drop_beyond(Slot& slot) {
         slot.height = slot.stack.drop_beyond(slot.height, slot.query().s_max);
     }
