@@ -42,7 +42,6 @@ struct LeafQuery {
     SlabRay slabs;
     TriangleFilterRay filter;
     Ray ray;
-    const Ray* source;  ///< the caller's
     LocalParameter parameter;
     const WideBvhScene& scene;
     const TriangleBlock* blocks;  ///< null: leaves hold indices
@@ -50,10 +49,7 @@ struct LeafQuery {
     bool valid;  ///< false: the ray cannot be traced
 
     HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r)
-        : ray(r),
-          source(&r),
-          scene(s),
-          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
+        : ray(r), scene(s), blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid =
@@ -63,16 +59,14 @@ struct LeafQuery {
             });
         s_max = slabs.s_max;
     }
-    /// `record`: the same ray, prepared.
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const RayRecord& record)
-        : slabs(record.slabs),
-          filter(record.filter),
-          ray(r),
-          source(&r),
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const PreparedRay& r)
+        : slabs(r.record.slabs),
+          filter(r.record.filter),
+          ray(r.ray),
           parameter{s.layout->frame.scale, 0.0},
           scene(s),
           blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
-          s_max(record.slabs.s_max),
+          s_max(r.record.slabs.s_max),
           valid(true) {}
 
     [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
@@ -379,10 +373,9 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     WaitingShapes<8> waiting;
 
     /// `found` may hold an earlier hit.
-    template <class... Record>
-    HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found,
-                            const Record&... record)
-        : Base(s, r, record...), best(found) {
+    template <class GivenRay>
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const GivenRay& r, Hit& found)
+        : Base(s, r), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -462,7 +455,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         this->finish_shapes(stats);
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
-            resolution.add(*this->source, this->filter, best, block, lane, stats);
+            resolution.add(ray, this->filter, best, block, lane, stats);
         });
     }
 
@@ -492,10 +485,9 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     const BoxBlock* sure_block = nullptr;  ///< of a flat shape that occludes the ray; or null
     std::size_t sure_lane = 0;
 
-    template <class... Record>
-    HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result,
-                             const Record&... record)
-        : Base(s, r, record...), occluded(result) {}
+    template <class GivenRay>
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const GivenRay& r, bool& result)
+        : Base(s, r), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const typename Test::Found& found,
