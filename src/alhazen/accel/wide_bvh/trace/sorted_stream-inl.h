@@ -142,7 +142,7 @@ class SortedStream {
     using Slot = StreamSlot<Query, W>;
     /// Fewer rays wait until there are as many, so that most passes of a list end where the
     /// processor expects it.
-    static constexpr std::size_t kEnough = 6;
+    static constexpr std::size_t kEnough = 10;
 
     /// Number of rays that are visited before a ray is queued. The next step of a ray comes out of
     /// a long chain of operations; what waits for its end keeps the processor from running ahead.

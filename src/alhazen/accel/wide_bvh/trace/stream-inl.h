@@ -32,7 +32,7 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// Number of rays in flight: of those that leave a packet, and of a batch.
-inline constexpr std::size_t kStreamSlots = 8, kBatchSlots = 24;
+inline constexpr std::size_t kStreamSlots = 8, kBatchSlots = 32;
 
 /// Computes the address of a node or a leaf without a branch.
 class PrefetchTable {
