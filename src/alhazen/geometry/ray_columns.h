@@ -71,6 +71,15 @@ struct HitColumns {
         if (!v.empty()) v[i] = hit.v;
         if (!primitive.empty()) primitive[i] = hit.top();
     }
+    /// Sets as many as there are, from `first` on.
+    void set(std::size_t first, std::span<const Hit> hits) const {
+        const std::size_t n = hits.size();
+        const HitColumns to = part(first, n);
+        for (std::size_t i = 0; !t.empty() && i < n; ++i) to.t[i] = hits[i].t;
+        for (std::size_t i = 0; !u.empty() && i < n; ++i) to.u[i] = hits[i].u;
+        for (std::size_t i = 0; !v.empty() && i < n; ++i) to.v[i] = hits[i].v;
+        for (std::size_t i = 0; !primitive.empty() && i < n; ++i) to.primitive[i] = hits[i].top();
+    }
     [[nodiscard]] HitColumns part(std::size_t first, std::size_t count) const {
         const auto of = [&](auto column) {
             return column.empty() ? column : column.subspan(first, count);

@@ -1,5 +1,5 @@
 // Of the children that a ray meets, the stack takes all but the nearest, the farthest first by the
-// order of the octant, on every instruction set.
+// order of the octant, on every instruction set; and it drops what lies beyond the end of a ray.
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 
@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
@@ -41,6 +42,23 @@ std::size_t push_on_stack(const WideNode& node, const float* entries, const floa
     return nearest;
 }
 
+/// Of a stack of `count` entries above the sentinel; returns how many are left.
+std::size_t drop_from_stack(float s_max, std::size_t count, float* entries,
+                            std::uint32_t* children) {
+    NodeStack<8> stack;
+    stack.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        stack.entry[1 + i] = entries[i];
+        stack.child[1 + i] = children[i];
+    }
+    const std::size_t left = stack.drop_beyond(1 + count, s_max) - 1;
+    for (std::size_t i = 0; i < left; ++i) {
+        entries[i] = stack.entry[1 + i];
+        children[i] = stack.child[1 + i];
+    }
+    return NodeRef::from_bits(stack.child[0]) == NodeRef::none() ? left : count + 1;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
@@ -51,6 +69,7 @@ namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 ALHAZEN_KERNEL_TABLE(push_on_stack);
+ALHAZEN_KERNEL_TABLE(drop_from_stack);
 
 using NodeRandom = std::mt19937;
 
@@ -119,6 +138,37 @@ TEST(NodeStack, TakesAllChildrenButTheNearestOnEveryInstructionSet) {
                 ALHAZEN_KERNEL(push_on_stack)(node, entries, exits, octant, pushed.count,
                                               pushed.entries.data(), pushed.children.data());
             ASSERT_EQ(pushed, expected_of(node, entries, hit, octant)) << target << ", node " << i;
+        }
+    }
+}
+
+TEST(NodeStack, DropsWhatLiesBeyondTheEndInItsOrder) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        NodeRandom random(8);
+        for (int i = 0; i < 3000; ++i) {
+            std::vector<float> entries(random() % 40);
+            std::vector<std::uint32_t> children(entries.size());
+            for (std::size_t k = 0; k < entries.size(); ++k) {
+                entries[k] = static_cast<float>(random() % 10);
+                children[k] = static_cast<std::uint32_t>(random());
+            }
+            if (!entries.empty()) entries[0] = -std::numeric_limits<float>::infinity();
+            const auto s_max = static_cast<float>(random() % 11);
+            std::vector<float> left_entries;
+            std::vector<std::uint32_t> left_children;
+            for (std::size_t k = 0; k < entries.size(); ++k) {
+                if (entries[k] > s_max) continue;
+                left_entries.push_back(entries[k]);
+                left_children.push_back(children[k]);
+            }
+            const std::size_t left = ALHAZEN_KERNEL(drop_from_stack)(
+                s_max, entries.size(), entries.data(), children.data());
+            ASSERT_EQ(left, left_entries.size()) << target << ", stack " << i;
+            entries.resize(left);
+            children.resize(left);
+            ASSERT_EQ(entries, left_entries) << target << ", stack " << i;
+            ASSERT_EQ(children, left_children) << target << ", stack " << i;
         }
     }
 }

@@ -62,7 +62,8 @@ class FloatColumns {
 };
 
 /// Compares rays in columns with the same rays one by one.
-inline void compare_columns(const Aggregate& tested, const Rays& rays, const std::string& name) {
+inline void compare_columns(const Aggregate& tested, const Rays& rays, const std::string& name,
+                            Coherence coherence = Coherence::Coherent) {
     for (const bool all : {true, false}) {
         const FloatColumns columns(rays, all);
         if (!all && !columns.shortened()) continue;
@@ -71,10 +72,9 @@ inline void compare_columns(const Aggregate& tested, const Rays& rays, const std
         std::vector<PrimitiveId> ids(count, PrimitiveId{7});
         const auto occluded = std::make_unique<bool[]>(count);
         for (std::size_t i = 0; i < count; ++i) occluded[i] = i % 3 == 0;
-        tested.closest_columns(columns.rays(), {t, u, v, ids}, nullptr, Coherence::Coherent);
-        tested.closest_columns(columns.rays(), {only_t}, nullptr, Coherence::Coherent);
-        tested.occluded_columns(columns.rays(), {occluded.get(), count}, nullptr,
-                                Coherence::Coherent);
+        tested.closest_columns(columns.rays(), {t, u, v, ids}, nullptr, coherence);
+        tested.closest_columns(columns.rays(), {only_t}, nullptr, coherence);
+        tested.occluded_columns(columns.rays(), {occluded.get(), count}, nullptr, coherence);
         for (std::size_t i = 0; i < count; ++i) {
             const Ray ray = columns.rays().ray(i);
             Hit expected;

@@ -14,6 +14,7 @@
 #include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
+#include "unit/aggregates/coherent_rays.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -95,6 +96,27 @@ TEST(RayRecords, HaveTheHitsOfSingleRaysInBatchesOfAllSizes) {
             }
             EXPECT_GT(found, 100);
         }
+    }
+}
+
+TEST(RayRecords, HaveTheHitsOfSingleRaysInColumns) {
+    const PrimitiveTable table = random_mixture(700, 1, 0.1, 84);
+    std::vector<Ray> rays = rays_of_all_kinds(1203);
+    std::vector<Ray> alike = rays_of_all_kinds(40);
+    for (Ray& ray : alike) {
+        ray.origin = {0.1, 0.2, 3};
+        ray.t_min = 0;
+        ray.t_max = 100;
+    }
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tree = make_aggregate("wide_bvh", table);
+        for (const std::size_t size : {5, 16, 100, 1203}) {
+            rays.resize(size);
+            compare_columns(*tree, rays, target, Coherence::Any);
+            rays = rays_of_all_kinds(1203);
+        }
+        compare_columns(*tree, alike, target + ", from one point", Coherence::Any);
     }
 }
 

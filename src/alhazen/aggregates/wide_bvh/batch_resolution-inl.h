@@ -32,10 +32,11 @@ class BatchResolution {
         if (HWY_LIKELY(id.exact())) {
             pairs_.set(count_, ray, {filter.kx, filter.ky, filter.kz}, scene_.layout->frame, block,
                        lane);
-            return place({&ray, &best, id.id()}, stats);
+            pair_[count_].set(ray, best, id.id());
+            return added(stats);
         }
         hwy::Prefetch(scene_.table->triangle_corners(triangle(id.id())));
-        fetching_[fetching_count_++] = {&ray, &best, id.id()};
+        fetching_[fetching_count_++].set(ray, best, id.id());
         if (fetching_count_ == kLaneCount) fetch(stats);
     }
     /// Resolves the pairs added so far.
@@ -48,9 +49,16 @@ class BatchResolution {
 
   private:
     struct Pair {
-        const Ray* ray;
+        Ray ray;
         Hit* best;
         PrimitiveId id;
+
+        // Member by member: a copy of the whole would wait for the stores that built it.
+        HWY_INLINE void set(const Ray& r, Hit& hit, PrimitiveId triangle) {
+            ray = r;
+            best = &hit;
+            id = triangle;
+        }
     };
 
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
@@ -62,8 +70,9 @@ class BatchResolution {
     HWY_NOINLINE void fetch(Stats stats) {
         for (std::size_t i = 0; i < fetched_count_; ++i) {
             const auto [a, b, c] = scene_.table->triangle_vertices(triangle(fetched_[i].id));
-            pairs_.set(count_, *fetched_[i].ray, {a, b, c});
-            place(fetched_[i], stats);
+            pairs_.set(count_, fetched_[i].ray, {a, b, c});
+            pair_[count_] = fetched_[i];
+            added(stats);
         }
         for (std::size_t i = 0; i < fetching_count_; ++i) {
             fetched_[i] = fetching_[i];
@@ -76,10 +85,9 @@ class BatchResolution {
         fetching_count_ = 0;
     }
 
-    /// The pair of the lane that has been set.
+    /// The lane of `count_` and its pair have been set.
     template <class Stats>
-    HWY_INLINE void place(const Pair& pair, Stats stats) {
-        pair_[count_] = pair;
+    HWY_INLINE void added(Stats stats) {
         if (++count_ == kLaneCount) resolve(stats);
     }
 
@@ -91,15 +99,15 @@ class BatchResolution {
                            HWY_ATTR { return resolve_scalar(pair_[lane], hit); },
                        [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
                            stats.primitive_hits(1);
-                           Ray ray = *pair_[lane].ray;
-                           offer_hit(hit, pair_[lane].id, ray, *pair_[lane].best);
+                           Pair& pair = pair_[lane];
+                           offer_hit(hit, pair.id, pair.ray, *pair.best);
                            return false;
                        });
         count_ = 0;
     }
     HWY_NOINLINE bool resolve_scalar(const Pair& pair, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(pair.id));
-        return intersect_triangle(*pair.ray, RayShear(pair.ray->direction), a, b, c, hit);
+        return intersect_triangle(pair.ray, RayShear(pair.ray.direction), a, b, c, hit);
     }
 
     const WideBvhScene& scene_;

@@ -19,7 +19,6 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
-#include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
 
@@ -54,12 +53,12 @@ HWY_INLINE bool run(Query& query, bool follows, Stats stats) {
 template <class Query, std::size_t W, class Result, class Stats>
 class BatchSource {
   public:
-    HWY_INLINE BatchSource(const WideBvhScene& scene, std::span<const Ray> rays,
+    HWY_INLINE BatchSource(const WideBvhScene& scene, const GivenRays& rays,
                            std::span<Result> results, Stats stats)
         : scene_(scene),
           rays_(rays),
           results_(results),
-          frame_(scene.layout->frame, GivenRays(rays)),
+          frame_(scene.layout->frame, rays),
           stats_(stats),
           resolution_(scene) {
         const WideBvh& tree = scene.layout->tree;
@@ -70,7 +69,8 @@ class BatchSource {
         while (true) {
             if (HWY_LIKELY(prepared_ != 0)) {
                 const std::size_t i = take(prepared_);
-                new (place) Query(scene_, rays_[i], results_[i], records_[i - first_]);
+                new (place) Query(scene_, PreparedRay{given_[i - first_], records_[i - first_]},
+                                  results_[i]);
                 return true;
             }
             if (HWY_UNLIKELY(others_ != 0)) {
@@ -108,7 +108,7 @@ class BatchSource {
         return i;
     }
     HWY_NOINLINE bool start_alone(void* place, std::size_t i) {
-        return (new (place) Query(scene_, rays_[i], results_[i]))->valid;
+        return (new (place) Query(scene_, given_[i - first_], results_[i]))->valid;
     }
     /// Turns to the next rays; false if there are none.
     HWY_NOINLINE bool fill() {
@@ -116,17 +116,17 @@ class BatchSource {
         const std::size_t count = std::min(kRays, rays_.size() - first_);
         if (count == 0) return false;
         next_ += count;
+        take_rays(count);
         std::uint32_t waiting = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            hwy::Prefetch(&rays_[std::min(next_ + i, rays_.size() - 1)]);
             waiting |= std::uint32_t{!done(results_[first_ + i])} << i;
         }
+        if (HWY_LIKELY(rays_.size() - next_ >= kRays)) rays_.prefetch<kRays>(next_);
         if constexpr (RayRecords::kSupported) {
             if (HWY_LIKELY(count == kRays)) {
                 std::uint32_t missed = 0;
-                const std::span<const Ray, kRays> rays(&rays_[first_], kRays);
                 const std::uint32_t prepared = records_.prepare(
-                    frame_, Query::slab_slack(scene_.layout->frame), rays, root_, missed);
+                    frame_, Query::slab_slack(scene_.layout->frame), rays_, first_, root_, missed);
                 others_ = waiting & ~prepared;
                 prepared_ = waiting & prepared & ~missed;
                 skip(waiting & missed);
@@ -135,6 +135,18 @@ class BatchSource {
         }
         others_ = waiting;
         return true;
+    }
+    HWY_INLINE void take_rays(std::size_t count) {
+        const RayColumns* const columns = rays_.columns();
+        if (columns == nullptr) {
+            given_ = rays_.array() + first_;
+            return;
+        }
+        given_ = of_columns_;
+        const std::size_t first = rays_.first() + first_;
+        if (HWY_LIKELY(count == kRays))
+            return HWY_NAMESPACE::take_rays(*columns, first, of_columns_);
+        for (std::size_t i = 0; i < count; ++i) of_columns_[i] = columns->ray(first + i);
     }
     /// Counts the rays that meet no child of the root.
     HWY_INLINE void skip(std::uint32_t missed) {
@@ -145,7 +157,8 @@ class BatchSource {
     }
 
     const WideBvhScene& scene_;
-    std::span<const Ray> rays_;
+    GivenRays rays_;
+    const Ray* given_ = nullptr;  ///< those from first_ on
     std::span<Result> results_;
     LaneFrame frame_;
     const WideNodeOf<W>* root_ = nullptr;
@@ -153,12 +166,13 @@ class BatchSource {
     std::size_t first_ = 0, next_ = 0;
     std::uint32_t prepared_ = 0, others_ = 0;  ///< bits of the rays from first_ on
     RayRecords records_;
+    Ray of_columns_[kRays];
     BatchResolution resolution_;
 };
 
 template <class Query, std::size_t W, class Result, class Stats>
-HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
-                          std::span<Result> results, Stats stats) {
+HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
+                            std::span<Result> results, Stats stats) {
     BatchSource<Query, W, Result, Stats> source(scene, rays, results, stats);
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
@@ -170,12 +184,7 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
-    if constexpr (Query::kOrdered) {
-        traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
-    } else {
-        // Rays for any hit end early: lists cost more than they gain.
-        traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
-    }
+    traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
     source.finish_all(stats);
 }
 

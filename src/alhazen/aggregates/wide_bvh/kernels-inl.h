@@ -52,14 +52,22 @@ struct Kernels {
     }
     static void closest_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                               std::span<Hit> best, TraversalStats* stats) {
-        run_batch<Closest, W>(scene, rays, best, policy(stats));
+        run_batch<Closest, W>(scene, GivenRays(rays), best, policy(stats));
+    }
+    static void closest_column_stream(const WideBvhScene& scene, const RayColumns& rays,
+                                      std::span<Hit> best, TraversalStats* stats) {
+        run_batch<Closest, W>(scene, GivenRays(rays), best, policy(stats));
+    }
+    static void occluded_column_stream(const WideBvhScene& scene, const RayColumns& rays,
+                                       std::span<bool> occluded, TraversalStats* stats) {
+        run_batch<Occluded, W>(scene, GivenRays(rays), occluded, policy(stats));
     }
     static void occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                                std::span<bool> occluded, TraversalStats* stats) {
         if (scene.recent != nullptr) {
             return run_singly<Occluded, W>(scene, rays, occluded, policy(stats));
         }
-        run_batch<Occluded, W>(scene, rays, occluded, policy(stats));
+        run_batch<Occluded, W>(scene, GivenRays(rays), occluded, policy(stats));
     }
     /// Rays in no packet are traced one by one if they are few or the tree is small.
     static void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
@@ -122,8 +130,13 @@ struct Kernels {
     /// Packets exist for nodes of 8 and exact tests only. The collecting queries are exact in both
     /// precisions: with FloatTriangleTest they are null, and the exact kernels serve instead.
     static constexpr WideBvhKernels table() {
-        WideBvhKernels kernels{&closest,        &occluded, nullptr, nullptr, &closest_batch,
-                               &occluded_batch, nullptr,   nullptr, nullptr, nullptr};
+        WideBvhKernels kernels{};
+        kernels.closest = &closest;
+        kernels.occluded = &occluded;
+        kernels.closest_batch = &closest_batch;
+        kernels.occluded_batch = &occluded_batch;
+        kernels.closest_column_stream = &closest_column_stream;
+        kernels.occluded_column_stream = &occluded_column_stream;
         if constexpr (TriangleTest::kExact) {
             kernels.all_hits = &all_hits;
             kernels.shadowed = &shadowed;

@@ -42,7 +42,6 @@ struct LeafQuery {
     SlabRay slabs;
     TriangleFilterRay filter;
     Ray ray;
-    const Ray* source;  ///< the caller's
     LocalParameter parameter;
     const WideBvhScene& scene;
     const TriangleBlock* blocks;  ///< null: leaves hold indices
@@ -50,10 +49,7 @@ struct LeafQuery {
     bool valid;  ///< false: the ray cannot be traced
 
     HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r)
-        : ray(r),
-          source(&r),
-          scene(s),
-          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
+        : ray(r), scene(s), blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid =
@@ -63,16 +59,14 @@ struct LeafQuery {
             });
         s_max = slabs.s_max;
     }
-    /// `record`: the same ray, prepared.
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const RayRecord& record)
-        : slabs(record.slabs),
-          filter(record.filter),
-          ray(r),
-          source(&r),
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const PreparedRay& r)
+        : slabs(r.record.slabs),
+          filter(r.record.filter),
+          ray(r.ray),
           parameter{s.layout->frame.scale, 0.0},
           scene(s),
           blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
-          s_max(record.slabs.s_max),
+          s_max(r.record.slabs.s_max),
           valid(true) {}
 
     [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
@@ -101,21 +95,20 @@ struct LeafQuery {
         }
         return true;
     }
-    /// As `visit`, for several rays in turn: the last block is only filtered, and `settle` does the
-    /// rest in the next turn. Branches on the filter's result are then decided at once, where they
-    /// would wait for it, and a wrong guess discards little work.
+    /// As `visit`, for the first block of a leaf and several rays in turn: it is only filtered, and
+    /// `settle` does the rest in a step of its own. Branches on the filter's result are then
+    /// decided at once, where they would wait for it, and a wrong guess discards little work.
     template <class Stats>
-    HWY_INLINE bool visit_later(NodeRef ref, Stats stats) {
-        const std::uint32_t count = ref.count();
+    HWY_INLINE bool filter_block(NodeRef ref, Stats stats) {
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles:
-                return filter_last_triangles(ref, stats);
+                return filter_triangle_block(ref, stats);
             case LeafType::Spheres:
-                return filter_last(&scene.layout->spheres[ref.offset()], count, stats);
+                return filter_later(scene.layout->spheres[ref.offset()], stats);
             case LeafType::Frustums:
-                return filter_last(&scene.layout->frustums[ref.offset()], count, stats);
+                return filter_later(scene.layout->frustums[ref.offset()], stats);
             case LeafType::Others:
-                return filter_last(&scene.layout->others[ref.offset()], count, stats);
+                return filter_later(scene.layout->others[ref.offset()], stats);
         }
         return true;
     }
@@ -125,7 +118,7 @@ struct LeafQuery {
                                  HWY_ATTR { return visit_found(block, found, rest, stats); },
                              [&](const TriangleBlock& block, const FilteredTriangles& found)
                                  HWY_ATTR {
-                                     if constexpr (defers_triangles()) {
+                                     if constexpr (Test::kExact) {
                                          return query().triangles(block, found, stats);
                                      }
                                      return false;
@@ -177,10 +170,6 @@ struct LeafQuery {
     }
 
   private:
-    /// Whether a block of triangles is settled in the next turn. A ray for any hit ends at most of
-    /// what the filter finds.
-    static constexpr bool defers_triangles() { return Test::kExact && Query::kOrdered; }
-
     FilteredLater later_;
 
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
@@ -213,25 +202,25 @@ struct LeafQuery {
         return false;
     }
 
-    /// As filter_last, for triangles.
     template <class Stats>
-    HWY_INLINE bool filter_last_triangles(NodeRef ref, Stats stats) {
-        if constexpr (defers_triangles()) {
-            if (HWY_UNLIKELY(blocks == nullptr)) return visit_indices(ref, stats);
-            const TriangleBlock* block = blocks + ref.offset();
-            for (const TriangleBlock* last = block + (ref.count() - 1); block < last; ++block) {
-                stats.primitives(used_lanes(*block));
-                if (visit_block(*block, stats)) return true;
-            }
-            stats.primitives(used_lanes(*block));
-            (void)filter_triangles<true>(*block, filter, slabs.s_min, s_max, later_.triangles);
-            later_.set(*block);
+    HWY_INLINE bool filter_triangle_block(NodeRef ref, Stats stats) {
+        if (HWY_UNLIKELY(blocks == nullptr)) return visit_index_block(ref, stats);
+        const TriangleBlock& block = blocks[ref.offset()];
+        stats.primitives(used_lanes(block));
+        if constexpr (Test::kExact) {
+            (void)filter_triangles<true>(block, filter, slabs.s_min, s_max, later_.triangles);
+            later_.set(block);
             return false;
         } else {
-            return visit(ref, stats);
+            return visit_block(block, stats);
         }
     }
-
+    /// Leaves what the filter finds to `settle`.
+    template <class Block, class Stats>
+    HWY_INLINE bool filter_later(const Block& block, Stats stats) {
+        later_.set(block, filter_shapes<true>(block, later_.found, stats));
+        return false;
+    }
     template <class Block, class Stats>
     HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
@@ -239,14 +228,6 @@ struct LeafQuery {
             const std::uint32_t rest = filter_shapes<false>(*blocks, found, stats);
             if (rest != 0 && visit_found(*blocks, found, rest, stats)) return true;
         }
-        return false;
-    }
-    /// As visit_shapes, but leaves what the filter of the last block finds to `settle`.
-    template <class Block, class Stats>
-    HWY_INLINE bool filter_last(const Block* blocks, std::uint32_t count, Stats stats) {
-        if (count > 1 && visit_shapes(blocks, count - 1, stats)) return true;
-        const Block& last = blocks[count - 1];
-        later_.set(last, filter_shapes<true>(last, later_.found, stats));
         return false;
     }
     template <bool kAtOnce, class Block, class Stats>
@@ -353,6 +334,10 @@ struct LeafQuery {
         return false;
     }
     template <class Stats>
+    HWY_NOINLINE bool visit_index_block(NodeRef ref, Stats stats) {
+        return visit_indices(scene.layout->indices[ref.offset()], stats);
+    }
+    template <class Stats>
     HWY_INLINE bool visit_indices(const IndexBlock& block, Stats stats) {
         const std::uint32_t used = used_lanes(block);
         stats.primitives(used);
@@ -388,10 +373,9 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     WaitingShapes<8> waiting;
 
     /// `found` may hold an earlier hit.
-    template <class... Record>
-    HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found,
-                            const Record&... record)
-        : Base(s, r, record...), best(found) {
+    template <class GivenRay>
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const GivenRay& r, Hit& found)
+        : Base(s, r), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -471,7 +455,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         this->finish_shapes(stats);
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
-            resolution.add(*this->source, this->filter, best, block, lane, stats);
+            resolution.add(ray, this->filter, best, block, lane, stats);
         });
     }
 
@@ -501,10 +485,9 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     const BoxBlock* sure_block = nullptr;  ///< of a flat shape that occludes the ray; or null
     std::size_t sure_lane = 0;
 
-    template <class... Record>
-    HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result,
-                             const Record&... record)
-        : Base(s, r, record...), occluded(result) {}
+    template <class GivenRay>
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const GivenRay& r, bool& result)
+        : Base(s, r), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const typename Test::Found& found,

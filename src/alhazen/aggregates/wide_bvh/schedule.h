@@ -19,7 +19,7 @@ namespace alhazen {
 /// How the rays of a batch are traced.
 enum class Schedule {
     Single,           ///< one by one
-    Stream,           ///< several interleaved (accel/wide_bvh/trace/stream-inl.h)
+    Stream,           ///< several interleaved (accel/wide_bvh/trace/sorted_stream-inl.h)
     Packets,          ///< packets of coherent rays; rays in no packet one by one
     TreelessPackets,  ///< lanes of rays against every primitive (treeless_packets.h)
 };

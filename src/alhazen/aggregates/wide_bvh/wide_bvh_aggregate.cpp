@@ -235,6 +235,18 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
             .closest_columns(batch_scene(query.mask), rays, hits, query.stats)) {
         return;
     }
+    if (streams_alone(coherence)) {
+        std::vector<Hit> found(std::min(kInCache, rays.size()));
+        for (std::size_t i = 0; i < rays.size(); i += kInCache) {
+            const std::span<Hit> here = std::span(found).first(std::min(kInCache, rays.size() - i));
+            if (i > 0) std::fill(here.begin(), here.end(), Hit{});
+            kernels_.for_stats(query.stats)
+                .closest_column_stream(batch_scene(query.mask), rays.part(i, here.size()), here,
+                                       query.stats);
+            hits.set(i, here);
+        }
+        return;
+    }
     Aggregate::closest_columns(rays, hits, query, coherence);
 }
 
@@ -244,6 +256,11 @@ void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> 
         kernels_.for_stats(query.stats)
             .occluded_columns(batch_scene(query.mask), rays, occluded, query.stats)) {
         return;
+    }
+    if (streams_alone(coherence)) {
+        std::fill(occluded.begin(), occluded.end(), false);
+        return kernels_.for_stats(query.stats)
+            .occluded_column_stream(batch_scene(query.mask), rays, occluded, query.stats);
     }
     Aggregate::occluded_columns(rays, occluded, query, coherence);
 }

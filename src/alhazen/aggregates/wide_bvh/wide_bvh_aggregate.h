@@ -87,6 +87,11 @@ class WideBvhAggregate final : public Aggregate {
         return schedules_.of_batch(coherence) == Schedule::Packets && outside_.empty() &&
                !layout_.tree.empty;
     }
+    /// Whether the stream traces a batch, and nothing is outside of the tree.
+    [[nodiscard]] bool streams_alone(Coherence coherence) const {
+        return schedules_.of_batch(coherence) == Schedule::Stream && outside_.empty() &&
+               !layout_.tree.empty;
+    }
     /// Sorts the hits that a query appended, and removes duplicates.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
 

@@ -76,6 +76,11 @@ struct WideBvhKernels {
                             TraversalStats*);
     bool (*occluded_columns)(const WideBvhScene&, const RayColumns&, std::span<bool> occluded,
                              TraversalStats*);
+    /// The batches for rays in columns.
+    void (*closest_column_stream)(const WideBvhScene&, const RayColumns&, std::span<Hit> best,
+                                  TraversalStats*);
+    void (*occluded_column_stream)(const WideBvhScene&, const RayColumns&, std::span<bool> occluded,
+                                   TraversalStats*);
 };
 
 struct WideBvhKernelPair {

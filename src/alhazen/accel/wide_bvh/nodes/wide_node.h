@@ -39,6 +39,8 @@ class NodeRef {
     [[nodiscard]] std::uint32_t count() const { return (bits_ >> 25 & 7) + 1; }
     [[nodiscard]] std::uint32_t offset() const { return bits_ & kMaxOffset; }
     [[nodiscard]] std::uint32_t bits() const { return bits_; }
+    /// A leaf of several blocks without the first.
+    [[nodiscard]] NodeRef after_first_block() const { return NodeRef(bits_ - (1u << 25) + 1); }
     friend bool operator==(NodeRef, NodeRef) = default;
 
   private:

@@ -307,6 +307,43 @@ HWY_INLINE void load_local(const LaneFrame& frame, const RayColumns& columns, st
     rows[7] = ends(columns.t_max, 1);
 }
 
+/// Sixteen rays of columns, from `first` on.
+HWY_INLINE void take_rays(const RayColumns& columns, std::size_t first, Ray (&rays)[16]) {
+#if HWY_CAP_GE512
+    const hn::CappedTag<double, 8> d;
+    const hn::CappedTag<float, 8> half;
+    const hn::CappedTag<float, 16> whole;
+    const auto row = [&](std::span<const float> column, float same) HWY_ATTR {
+        return column.empty() ? hn::Set(whole, same) : hn::LoadU(whole, &column[first]);
+    };
+    hn::Vec<hn::CappedTag<float, 16>> rows[8];
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        rows[k] = row(columns.origins[k], columns.origin[k]);
+        rows[3 + k] = row(columns.directions[k], 0.0f);
+    }
+    rows[6] = row(columns.t_min, columns.range[0]);
+    rows[7] = row(columns.t_max, columns.range[1]);
+    transpose_blocks(rows);
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < 8; ++i) {
+        hn::Store(hn::PromoteTo(d, hn::LowerHalf(half, rows[i])), d, &rays[i].origin.x);
+        hn::Store(hn::PromoteTo(d, hn::UpperHalf(half, rows[i])), d, &rays[8 + i].origin.x);
+    }
+#else
+    for (std::size_t i = 0; i < 16; ++i) rays[i] = columns.ray(first + i);
+#endif
+}
+
+/// Sixteen rays in either form, from `first` on.
+HWY_INLINE void load_local(const LaneFrame& frame, const GivenRays& rays, std::size_t first,
+                           Lanes<float, 16> (&rows)[8]) {
+    if (rays.columns() != nullptr) {
+        return load_local(frame, *rays.columns(), rays.first() + first, rows);
+    }
+    load_local(frame, std::span<const Ray, 16>(rays.array() + first, 16), rows);
+}
+
 #if HWY_CAP_GE512
 /// Eight rays, turned about in registers of eight: those that read the rows are as wide, and would
 /// wait for rows stored by halves.

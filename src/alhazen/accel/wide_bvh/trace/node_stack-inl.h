@@ -52,18 +52,18 @@ struct NodeStack {
         child[0] = NodeRef::none().bits();
     }
 
-    /// Pushes the children that are hit: the farthest first by the order of the octant, or else
-    /// those of the highest slots first.
+    /// Pushes the children that the ray enters before it leaves them: the farthest first by the
+    /// order of the octant, or else those of the highest slots first.
     template <bool kOrdered, std::size_t kRegisters = kParts<float, W>>
     [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNodeOf<W>& node,
                                               const Lanes<float, W>& entries,
-                                              const LaneMask<float, W>& hit, std::uint32_t octant) {
+                                              const Lanes<float, W>& exits, std::uint32_t octant) {
         if constexpr (kRegisters == 1) {
-            return push_lanes<kOrdered>(height, node, entries, hit, octant);
+            return push_lanes<kOrdered>(height, node, entries, exits, octant);
         } else {
             HWY_ALIGN float near[W];
             store_lanes(entries, near);
-            const std::uint32_t bits = bits_of(hit);
+            const std::uint32_t bits = bits_of(entries <= exits);
             auto order = node.order[octant];
             for (std::size_t i = 0; i < W; ++i) {
                 const std::size_t slot = kOrdered ? order & (W - 1) : W - 1 - i;
@@ -74,6 +74,32 @@ struct NodeStack {
             }
             return height;
         }
+    }
+
+    /// Removes what begins beyond `s_max`; the height that is left.
+    template <std::size_t kRegisters = kParts<float, W>>
+    [[nodiscard]] HWY_INLINE std::size_t drop_beyond(std::size_t height, float s_max) {
+        std::size_t left = 1;  // the sentinel stays
+        if constexpr (kRegisters == 1) {
+            const Tag d;
+            const auto most = hn::Set(d, s_max);
+            for (std::size_t i = 1; i < height; i += W) {
+                const auto near = hn::LoadU(d, entry + i);
+                const auto children = hn::LoadU(d, reinterpret_cast<const float*>(child + i));
+                const auto mask = hn::And(hn::Le(near, most), hn::FirstN(d, height - i));
+                const auto first = first_lanes(mask);
+                hn::StoreU(first(near), d, entry + left);
+                hn::StoreU(first(children), d, reinterpret_cast<float*>(child + left));
+                left += hn::CountTrue(d, mask);
+            }
+        } else {
+            for (std::size_t i = 1; i < height; ++i) {
+                entry[left] = entry[i];
+                child[left] = child[i];
+                left += entry[i] <= s_max;
+            }
+        }
+        return left;
     }
 
     /// Pushes the children that are hit but for the nearest, which it returns: the others by the
@@ -161,27 +187,29 @@ struct NodeStack {
 
     template <bool kOrdered>
     HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNodeOf<W>& node,
-                                      const Lanes<float, W>& entries, const LaneMask<float, W>& hit,
+                                      const Lanes<float, W>& entries, const Lanes<float, W>& exits,
                                       std::uint32_t octant) {
         const Tag d;
-        const auto missed = hn::Set(d, std::numeric_limits<float>::infinity());
-        const auto entries_hit = hn::IfThenElse(hit.part[0], entries.part[0], missed);
         const auto children = hn::Load(d, reinterpret_cast<const float*>(node.child));
-        const auto in_order = [&](const auto& values) HWY_ATTR {
-            if constexpr (kOrdered) {
-                const hn::RebindToSigned<Tag> di;
-                return hn::TableLookupLanes(
-                    values, hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant))));
-            } else {
-                return hn::Reverse(d, values);
-            }
+        // Put in order before they are compared: two lookups at a time in place of one comparison
+        // before the lookup and one after it.
+        const auto push_in_order = [&](auto&& in_order) HWY_ATTR {
+            const auto near = in_order(entries.part[0]);
+            const auto mask = hn::Le(near, in_order(exits.part[0]));
+            const auto first = first_lanes(mask);
+            const auto first_children = first(in_order(children));
+            hn::StoreU(first(near), d, entry + height);
+            hn::StoreU(first_children, d, reinterpret_cast<float*>(child + height));
+            return height + hn::CountTrue(d, mask);
         };
-        const auto near = in_order(entries_hit);
-        const auto mask = hn::Lt(near, missed);
-        const auto first = first_lanes(mask);
-        hn::StoreU(first(near), d, entry + height);
-        hn::StoreU(first(in_order(children)), d, reinterpret_cast<float*>(child + height));
-        return height + hn::CountTrue(d, mask);
+        if constexpr (kOrdered) {
+            const hn::RebindToSigned<Tag> di;
+            const auto places = hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant)));
+            return push_in_order([&](const auto& v)
+                                     HWY_ATTR { return hn::TableLookupLanes(v, places); });
+        } else {
+            return push_in_order([&](const auto& v) HWY_ATTR { return hn::Reverse(d, v); });
+        }
     }
     /// As push_but_nearest, but leaves `height` to the caller.
     HWY_INLINE std::size_t push_lanes_but_nearest(std::size_t height, const WideNodeOf<W>& node,

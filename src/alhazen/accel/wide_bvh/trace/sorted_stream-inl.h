@@ -1,13 +1,17 @@
-/// The stream of rays for closest hits: as stream-inl.h, but rays wait in lists by what they do
-/// next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
+/// The stream kernel of the wide BVH: arbitrary rays, interleaved, that wait in lists by what they
+/// do next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
 ///
 /// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015;
 /// Tsakok, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing", HPG 2009 (rays of a stream
 /// sorted by their next step).
-/// Differs: each ray has a stack of its own and visits its children nearest first.
-/// Conventions: included once per target (see simd/lanes-inl.h). `Query` and `Source` are those of
-/// stream-inl.h; `Query` has `visit_later`, `settle` and `waits()`, which is true if `settle` has
-/// anything to do.
+/// Differs: each ray has a stack of its own and visits its children nearest first, or for any hit
+/// in the order of the tree.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Query` has `filter_block(NodeRef,
+/// stats)`, which begins the test of the first block of a leaf; `settle(stats)`, which ends it, in
+/// a step of its own, if `waits()` is true; both return true to stop. Both may lower `s_max`, the
+/// parameter up to which hits are searched. `slabs` is the ray. `Source` has `start(void* place)`,
+/// which constructs the query of the next ray there and returns false if there is none, and
+/// `finish(query, stats)`, called after its last leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
@@ -16,9 +20,11 @@
 #define ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 
@@ -55,18 +61,37 @@ class StepLists {
     /// Calls f(slot) for the rays that are in the list now, and removes them.
     template <class F>
     HWY_INLINE void take(NextStep step, F&& f) {
-        // f may add to the list: nothing is copied, for what was stored slot by slot would be
-        // waited for where it is loaded several at a time.
-        Slot** const taken = begin_[index(step)];
-        Slot** const end = end_[index(step)];
-        begin_[index(step)] = end_[index(step)] = spare_;
-        spare_ = taken;
-        for (Slot** slot = taken; slot != end; ++slot) f(**slot);
+        const Taken taken = take_list(step);
+        for (std::size_t i = 0; i < taken.count; ++i) f(*taken.slots[i]);
+    }
+    /// As `take`, and calls then(slot) for each when f has been called for `kBehind` more.
+    template <std::size_t kBehind, class F, class Then>
+    HWY_INLINE void take(NextStep step, F&& f, Then&& then) {
+        const Taken taken = take_list(step);
+        for (std::size_t i = 0; i < taken.count; ++i) {
+            f(*taken.slots[i]);
+            if (i >= kBehind) then(*taken.slots[i - kBehind]);
+        }
+        for (std::size_t i = taken.count - std::min(kBehind, taken.count); i < taken.count; ++i) {
+            then(*taken.slots[i]);
+        }
     }
 
   private:
     static constexpr std::size_t kSteps = 4;
+    struct Taken {
+        Slot* const* slots;
+        std::size_t count;
+    };
     static HWY_INLINE std::size_t index(NextStep step) { return static_cast<std::size_t>(step); }
+    /// Exchanges the list with an empty one. Nothing is copied, for what was stored slot by slot
+    /// would be waited for where it is loaded several at a time.
+    HWY_INLINE Taken take_list(NextStep step) {
+        const Taken taken{begin_[index(step)], count(step)};
+        Slot** const empty = std::exchange(spare_, begin_[index(step)]);
+        begin_[index(step)] = end_[index(step)] = empty;
+        return taken;
+    }
 
     Slot* room_[kSteps + 1][kSlots];
     Slot** begin_[kSteps] = {room_[0], room_[1], room_[2], room_[3]};
@@ -89,11 +114,15 @@ class SortedStream {
     HWY_INLINE void run() {
         for (Slot& slot : slots_) start(slot);
         while (true) {
-            lists_.take(NextStep::Node, [&](Slot& slot) HWY_ATTR { visit_node(slot); });
+            lists_.template take<kNodesBehind>(
+                NextStep::Node, [&](Slot& slot) HWY_ATTR { visit_node(slot); },
+                [&](Slot& slot) HWY_ATTR { queue(slot); });
             const bool idle = lists_.count(NextStep::Node) == 0;
             const std::size_t leaves = lists_.count(NextStep::Leaf);
             if (leaves >= kEnough || (idle && leaves > 0)) {
-                lists_.take(NextStep::Leaf, [&](Slot& slot) HWY_ATTR { visit_leaf(slot); });
+                lists_.template take<kLeavesBehind>(
+                    NextStep::Leaf, [&](Slot& slot) HWY_ATTR { visit_leaf(slot); },
+                    [&](Slot& slot) HWY_ATTR { queue(slot, slot.query().waits()); });
                 lists_.take(NextStep::Settle, [&](Slot& slot) HWY_ATTR { settle(slot); });
             }
             const bool starved =
@@ -113,7 +142,11 @@ class SortedStream {
     using Slot = StreamSlot<Query, W>;
     /// Fewer rays wait until there are as many, so that most passes of a list end where the
     /// processor expects it.
-    static constexpr std::size_t kEnough = 6;
+    static constexpr std::size_t kEnough = 10;
+
+    /// Number of rays that are visited before a ray is queued. The next step of a ray comes out of
+    /// a long chain of operations; what waits for its end keeps the processor from running ahead.
+    static constexpr std::size_t kNodesBehind = 5, kLeavesBehind = 2;
 
     HWY_INLINE void start(Slot& slot) {
         if (!source_.start(slot.place)) return;
@@ -121,51 +154,46 @@ class SortedStream {
         lists_.add(kNextSteps[0][root_.bits() >> 28], slot);
     }
     /// `waits`: a leaf is to be settled before.
-    HWY_INLINE void queue(Slot& slot, std::size_t height, bool waits = false) {
-        slot.height = height;
-        const std::uint32_t next = slot.stack.child[height - 1];
+    HWY_INLINE void queue(Slot& slot, bool waits = false) {
+        const std::uint32_t next = slot.stack.child[slot.height - 1];
         prefetch_table_.prefetch(next);
         lists_.add(kNextSteps[waits][next >> 28], slot);
     }
-    /// Removes what lies beyond the end of the ray, and queues the ray.
-    HWY_INLINE void queue_next(Slot& slot, std::size_t height) {
-        const float s_max = slot.query().s_max;
-        do {
-            --height;
-        } while (slot.stack.entry[height] > s_max);
-        queue(slot, height + 1);
-    }
-    /// The same if the next subtree lies beyond the end of the ray, which it rarely does.
-    HWY_INLINE bool is_beyond(Slot& slot) {
-        const std::size_t top = slot.height - 1;
-        if (HWY_LIKELY(!(slot.stack.entry[top] > slot.query().s_max))) return false;
-        queue_next(slot, top);
-        return true;
-    }
     HWY_INLINE void visit_node(Slot& slot) {
-        if (HWY_UNLIKELY(is_beyond(slot))) return;
         Query& query = slot.query();
         const std::size_t height = slot.height - 1;
         const WideNodeOf<W>& node = nodes_[NodeRef::from_bits(slot.stack.child[height]).index()];
         stats_.nodes(1);
         stats_.boxes(node.child_count());
-        Lanes<float, W> entries;
-        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
-        queue(slot, slot.stack.template push<Query::kOrdered>(height, node, entries, hit,
-                                                              query.slabs.near.octant));
+        Lanes<float, W> entries, exits;
+        cross_children(node, query.slabs, query.s_max, entries, exits);
+        slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, exits,
+                                                                query.slabs.near.octant);
     }
     HWY_INLINE void visit_leaf(Slot& slot) {
-        if (HWY_UNLIKELY(is_beyond(slot))) return;
+        const std::size_t top = slot.height - 1;
+        const NodeRef leaf = NodeRef::from_bits(slot.stack.child[top]);
+        slot.stack.child[top] = leaf.after_first_block().bits();
+        slot.height = top + (leaf.count() > 1);
         Query& query = slot.query();
-        const std::size_t height = slot.height - 1;
-        if (query.visit_later(NodeRef::from_bits(slot.stack.child[height]), stats_)) {
-            return lists_.add(NextStep::Finish, slot);
-        }
-        queue(slot, height, query.waits());
+        const float s_max = query.s_max;
+        if (query.filter_block(leaf, stats_)) return slot.stop();
+        if (query.s_max < s_max) drop_beyond(slot);
     }
     HWY_INLINE void settle(Slot& slot) {
-        if (slot.query().settle(stats_)) return lists_.add(NextStep::Finish, slot);
-        queue_next(slot, slot.height);
+        Query& query = slot.query();
+        const float s_max = query.s_max;
+        if (query.settle(stats_)) {
+            slot.stop();
+        } else if (query.s_max < s_max) {
+            drop_beyond(slot);
+        }
+        queue(slot);
+    }
+    /// Removes the subtrees beyond the end of the ray, when that has moved: the visits need not
+    /// ask.
+    HWY_INLINE void drop_beyond(Slot& slot) {
+        slot.height = slot.stack.drop_beyond(slot.height, slot.query().s_max);
     }
 
     const WideNodeOf<W>* nodes_;

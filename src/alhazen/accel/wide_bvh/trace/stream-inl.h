@@ -1,5 +1,6 @@
-/// The stream kernel of the wide BVH: arbitrary rays, several interleaved, so that the arithmetic
-/// of one ray hides the latency of memory and branches of the others.
+/// Rays interleaved, so that the arithmetic of one hides the latency of memory and branches of the
+/// others: their slots, the prefetching of what they need next, and a step of a ray in its turn.
+/// Batches of arbitrary rays: sorted_stream-inl.h.
 ///
 /// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015
 /// (slots refilled one by one); Fuetterling, Lojewski, Pfreundt, Hamann and Ebert, "Accelerated
@@ -9,14 +10,8 @@
 /// queries have one order for all octants (collapse.h).
 /// Conventions: included once per target (see simd/lanes-inl.h).
 ///
-/// The data that a step of a ray branches on was stored in its previous step, so a mispredicted
-/// branch is detected early and discards little work of the other rays.
 /// `Query` has `visit(NodeRef, stats)`, which tests a leaf and returns true to stop, as for
-/// NodeRef::none(), or in its place `visit_later`, which may leave a part of that to
-/// `settle(stats)` in the next turn; `slabs`, the ray; and `s_max`, the parameter up to which hits
-/// are searched. `Source` has `start(void* place)`, which constructs the query of the next ray
-/// there and returns false if there is none, and `finish(query, stats)`, called after its last
-/// leaf.
+/// NodeRef::none(); `slabs`, the ray; and `s_max`, the parameter up to which hits are searched.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
@@ -37,7 +32,7 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// Number of rays in flight: of those that leave a packet, and of a batch.
-inline constexpr std::size_t kStreamSlots = 8, kBatchSlots = 24;
+inline constexpr std::size_t kStreamSlots = 8, kBatchSlots = 32;
 
 /// Computes the address of a node or a leaf without a branch.
 class PrefetchTable {
@@ -94,6 +89,8 @@ struct StreamRay {
         stack.child[1] = root.bits();
         height = 2;
     }
+    /// Leaves the sentinel on the stack.
+    HWY_INLINE void stop() { height = 1; }
 };
 /// Padded so that the first lines of neighbouring slots are spread over the sets of the first cache
 /// (64 on most processors): of each slot only the query and the bottom of the stack are in use.
@@ -110,9 +107,6 @@ template <class Query, std::size_t W, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
                         const PrefetchTable& prefetch_table, Stats stats) {
     Query& query = slot.query();
-    if constexpr (requires { query.settle(stats); }) {
-        if (query.settle(stats)) return false;
-    }
     NodeStack<W>& stack = slot.stack;
     std::size_t height = slot.height;
     do {
@@ -120,49 +114,19 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
     } while (stack.entry[height] > query.s_max);
     const NodeRef ref = NodeRef::from_bits(stack.child[height]);
     if (ref.is_leaf()) {
-        if constexpr (requires { query.visit_later(ref, stats); }) {
-            if (query.visit_later(ref, stats)) return false;
-        } else {
-            if (query.visit(ref, stats)) return false;
-        }
+        if (query.visit(ref, stats)) return false;
     } else {
         const WideNodeOf<W>& node = nodes[ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
-        Lanes<float, W> entries;
-        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
-        height = stack.template push<Query::kOrdered>(height, node, entries, hit,
+        Lanes<float, W> entries, exits;
+        cross_children(node, query.slabs, query.s_max, entries, exits);
+        height = stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                       query.slabs.near.octant);
     }
     slot.height = height;
     prefetch_table.prefetch(stack.child[height - 1]);
     return true;
-}
-
-/// Traces every ray of `source` through the tree.
-template <class Query, std::size_t W, class Source, class Stats>
-HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root,
-                                const PrefetchTable& prefetch_table, Source& source, Stats stats) {
-    StreamSlot<Query, W> slots[kBatchSlots];
-    StreamSlot<Query, W>* active[kBatchSlots];
-    const auto start = [&](StreamSlot<Query, W>& slot) HWY_ATTR {
-        if (!source.start(slot.place)) return false;
-        slot.begin(root);
-        return true;
-    };
-    std::size_t count = 0;
-    while (count < kBatchSlots && start(slots[count])) {
-        active[count] = &slots[count];
-        ++count;
-    }
-    while (count > 0) {
-        for (std::size_t i = 0; i < count; ++i) {
-            StreamSlot<Query, W>& slot = *active[i];
-            if (advance(slot, nodes, prefetch_table, stats)) continue;
-            source.finish(slot.query(), stats);
-            if (!start(slot)) active[i--] = active[--count];
-        }
-    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -29,10 +29,10 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The children whose boxes the ray meets. `entry`: its parameter where it enters each.
+/// Where the ray enters and leaves the boxes of the children: it meets those that it enters first.
 template <std::size_t W>
-HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabRay& ray,
-                                                 float s_max, Lanes<float, W>& entry) {
+HWY_INLINE void cross_children(const WideNodeOf<W>& node, const SlabRay& ray, float s_max,
+                               Lanes<float, W>& entry, Lanes<float, W>& exit) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
     F near[3], far[3];
@@ -46,8 +46,15 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
     }
     // larger_by_bits is exact, as s_min is not negative.
     entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(ray.s_min)));
-    const F exit =
-        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    exit = smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+}
+
+/// The children whose boxes the ray meets. `entry`: its parameter where it enters each.
+template <std::size_t W>
+HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabRay& ray,
+                                                 float s_max, Lanes<float, W>& entry) {
+    Lanes<float, W> exit;
+    cross_children(node, ray, s_max, entry, exit);
     return entry <= exit;
 }
 

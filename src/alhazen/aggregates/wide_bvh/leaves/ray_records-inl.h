@@ -30,7 +30,13 @@ struct RayRecord {
     TriangleFilterRay filter;
 };
 
-/// Sixteen of them.
+/// A ray of a batch with its record.
+struct PreparedRay {
+    const Ray& ray;
+    const RayRecord& record;
+};
+
+/// Sixteen records.
 class RayRecords {
   public:
     static constexpr std::size_t kRays = 16;
@@ -41,13 +47,13 @@ class RayRecords {
     RayRecords(const RayRecords&) = delete;
     RayRecords& operator=(const RayRecords&) = delete;
 
-    /// Returns the bits of the rays that are prepared: those that `make_ray_nearby` accepts, except
-    /// a few. `bound`: as in `make_ray`. `missed`: set to the bits of those that meet no child of
-    /// the root; 0 if that is null.
+    /// Prepares those from `first` on. Returns the bits of the rays that are prepared: those that
+    /// `make_ray_nearby` accepts, except a few. `bound`: as in `make_ray`. `missed`: set to the
+    /// bits of those that meet no child of the root; 0 if that is null.
     template <std::size_t W>
     HWY_INLINE std::uint32_t prepare(const LaneFrame& frame, const DistanceBound& bound,
-                                     std::span<const Ray, kRays> rays, const WideNodeOf<W>* root,
-                                     std::uint32_t& missed);
+                                     const GivenRays& rays, std::size_t first,
+                                     const WideNodeOf<W>* root, std::uint32_t& missed);
 
     [[nodiscard]] HWY_INLINE const RayRecord& operator[](std::size_t i) const { return ray_[i]; }
 
@@ -133,10 +139,10 @@ HWY_INLINE void RayRecords::store(const F (&rows)[16], Part RayRecord::*part) {
 
 template <std::size_t W>
 HWY_INLINE std::uint32_t RayRecords::prepare(const LaneFrame& frame, const DistanceBound& bound,
-                                             std::span<const Ray, kRays> rays,
+                                             const GivenRays& rays, std::size_t first,
                                              const WideNodeOf<W>* root, std::uint32_t& missed) {
     F local[8];
-    load_local(frame, rays, local);
+    load_local(frame, rays, first, local);
     const FrameSlack& slack = frame.frame.slack;
     const F(&origin)[8] = local;
     const F* const direction = local + 3;
