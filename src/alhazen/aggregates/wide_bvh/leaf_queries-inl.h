@@ -75,6 +75,23 @@ struct LeafQuery {
           s_max(record.slabs.s_max),
           valid(true) {}
 
+    /// Of a ray that is prepared for nodes, with s_max `end`. `prepare_leaves` does the rest.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared, float end)
+        : ray(r),
+          source(&r),
+          parameter{s.layout->frame.scale, 0.0},
+          scene(s),
+          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
+          s_max(end),
+          valid(true) {
+        store_slab_ray(prepared, slabs);
+    }
+    HWY_INLINE void prepare_leaves(const NearbyRay& nearby) {
+        AxisLanes axes;
+        finish_nearby(scene.layout->frame, *source, nearby, axes);
+        make_triangle_filter_ray(slabs, axes, filter);
+    }
+
     [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
         return Test::slab_slack(frame);
     }

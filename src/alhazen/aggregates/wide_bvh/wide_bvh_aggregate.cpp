@@ -87,6 +87,8 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
 
 void WideBvhAggregate::finish_build() {
     outside_ = UnboundedParts(table_, unbounded_);
+    all_ = scene(kAllRays);
+    only_tree_ = outside_.empty() && !layout_.tree.empty;
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
                            kernels_.plain.closest_coherent != nullptr);
     // Incoherent rays read the meshes at random.
@@ -129,6 +131,13 @@ void WideBvhAggregate::complete(const Ray&, double, PrimitiveId primitive, Surfa
 }
 
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    if (asks_tree_alone(query)) [[likely]] {
+        return kernels_.plain.closest_of_one(all_, ray, hit, nullptr);
+    }
+    return closest_of_any(ray, hit, query);
+}
+
+bool WideBvhAggregate::closest_of_any(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
     outside_.closest(table_, ray, hit, query);
     if (!layout_.tree.empty)
@@ -137,6 +146,13 @@ bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
 }
 
 bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
+    if (asks_tree_alone(query)) [[likely]] {
+        return kernels_.plain.occluded(all_, ray, nullptr);
+    }
+    return occluded_by_any(ray, query);
+}
+
+bool WideBvhAggregate::occluded_by_any(const Ray& ray, RayQuery query) const {
     if (outside_.occluded(table_, ray, query)) return true;
     return !layout_.tree.empty &&
            kernels_.for_stats(query.stats).occluded(scene(query.mask), ray, query.stats);
