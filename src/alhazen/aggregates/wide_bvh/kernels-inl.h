@@ -60,8 +60,8 @@ HWY_INLINE bool closest_of_one(const WideBvhScene& scene, const Ray& ray, Hit& h
     const bool follows = begins_near_last(layout.frame, ray);
     NodeStack<W> stack;
     std::size_t height = 0;
-    const NodeRef next = next_child<true>(node, stack, height, entries, met, bits,
-                                          lanes.near.octant, follows);
+    const NodeRef next = next_child<true>(nodes, node, stack, height, entries, met, bits,
+                                          lanes.near.octant, follows, query);
     (void)traverse_from<true>(nodes, next, stack, height, query.slabs, follows, query, NoStats{});
     query.finish(NoStats{});
     return hit.found();

@@ -11,6 +11,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <type_traits>
 
@@ -96,6 +98,13 @@ struct LeafQuery {
         return Test::slab_slack(frame);
     }
 
+    /// Has the first block of a leaf of triangles come into the caches.
+    HWY_INLINE void fetch(NodeRef ref) const {
+        if (static_cast<LeafType>(ref.kind()) != LeafType::Triangles || blocks == nullptr) return;
+        const auto* block = reinterpret_cast<const char*>(blocks + ref.offset());
+        HWY_UNROLL(5)
+        for (std::size_t i = 0; i < sizeof(TriangleBlock); i += 64) hwy::Prefetch(block + i);
+    }
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, Stats stats) {
         const std::uint32_t count = ref.count();

@@ -106,13 +106,24 @@ HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool fo
     return node.child[slot];
 }
 
+/// Fetches a child, or the first block of a leaf.
+template <std::size_t W, class Leaf>
+HWY_INLINE void fetch_child(const WideNodeOf<W>* nodes, NodeRef child, const Leaf& leaf) {
+    if (child.is_leaf()) return leaf.fetch(child);
+    const auto* node = reinterpret_cast<const char*>(nodes + child.index());
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < sizeof(*nodes); i += 64) hwy::Prefetch(node + i);
+}
+
 /// The child to visit next of those that the ray meets (`met`, bits `hit`, not none); the others go
 /// onto the stack. Nearest first if `kOrdered`, else in the order of slots. `follows`: the ray
 /// probably takes the way of the one before it.
-template <bool kOrdered, std::size_t W>
-HWY_INLINE NodeRef next_child(const WideNodeOf<W>& node, NodeStack<W>& stack, std::size_t& height,
+template <bool kOrdered, std::size_t W, class Leaf>
+HWY_INLINE NodeRef next_child(const WideNodeOf<W>* nodes, const WideNodeOf<W>& node,
+                              NodeStack<W>& stack, std::size_t& height,
                               const Lanes<float, W>& entries, const LaneMask<float, W>& met,
-                              std::uint32_t hit, std::uint32_t octant, bool follows) {
+                              std::uint32_t hit, std::uint32_t octant, bool follows,
+                              const Leaf& leaf) {
     const auto push = [&](float entry, NodeRef child) HWY_ATTR {
         stack.entry[height] = entry;
         stack.child[height++] = child.bits();
@@ -123,6 +134,11 @@ HWY_INLINE NodeRef next_child(const WideNodeOf<W>& node, NodeStack<W>& stack, st
     const auto second = static_cast<std::size_t>(std::countr_zero(rest));
     rest &= rest - 1;
     if constexpr (kOrdered) {
+        // One is visited as soon as it is known which, the other later.
+        if constexpr (requires { leaf.fetch(NodeRef()); }) {
+            fetch_child(nodes, node.child[first], leaf);
+            fetch_child(nodes, node.child[second], leaf);
+        }
         // Nobody foresees which of two is nearer, unless rays follow each other.
         if (rest != 0 || !follows) {
             const std::size_t nearest =
@@ -166,8 +182,8 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
             const LaneMask<float, W> met = intersect_children(node, ray, leaf.s_max, entries);
             const std::uint32_t hit = bits_of(met);
             if (hit != 0) {
-                ref = next_child<kOrdered>(node, stack, height, entries, met, hit, ray.near.octant,
-                                           follows);
+                ref = next_child<kOrdered>(nodes, node, stack, height, entries, met, hit,
+                                           ray.near.octant, follows, leaf);
                 continue;
             }
         }
