@@ -197,11 +197,19 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
     WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
-        case Schedule::Single:
+        case Schedule::Single: {
+            // Without earlier hits that limit a ray.
+            if (outside_.empty()) {
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    (void)kernels.closest_of_one(seen, rays[i], hits[i], query.stats);
+                }
+                return;
+            }
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 kernels.closest(seen, rays[i], hits[i], query.stats);
             }
             return;
+        }
         case Schedule::Stream:
             return kernels.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:
