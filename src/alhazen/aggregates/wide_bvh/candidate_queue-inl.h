@@ -34,13 +34,13 @@ class RayCandidates {
         candidates_[count_++] = {&block, static_cast<std::uint32_t>(lane), begin};
         return true;
     }
-    /// Calls `resolve(block, lane)`, which may lower `s_max`.
+    /// Calls `resolve(block, lane, last)`, which may lower `s_max`.
     template <class Resolve>
     HWY_INLINE void take_all(const float& s_max, Resolve&& resolve) {
         for (std::uint32_t i = 0; i < count_; ++i) {
             // Written so that NaN is resolved.
             if (candidates_[i].lo > s_max) continue;
-            resolve(*candidates_[i].block, candidates_[i].lane);
+            resolve(*candidates_[i].block, candidates_[i].lane, i + 1 == count_);
         }
         count_ = 0;
     }

@@ -22,6 +22,51 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// As closest_of_one, for every ray.
+template <std::size_t W, class Query>
+HWY_NOINLINE bool closest_of_any(const WideBvhScene& scene, const Ray& ray, Hit& hit) {
+    hit = Hit{};
+    const bool follows = begins_near_last(scene.layout->frame, ray);
+    Query query(scene, ray, hit);
+    run<W>(query, follows, NoStats{});
+    return hit.found();
+}
+
+/// Sets `hit` to the nearest hit, and returns whether there is one. Many rays meet no child of the
+/// root: they need no query, and are not prepared for leaves.
+template <std::size_t W, class Query>
+HWY_INLINE bool closest_of_one(const WideBvhScene& scene, const Ray& ray, Hit& hit) {
+    const WideBvhLayout& layout = *scene.layout;
+    const NodeRef root = layout.tree.root;
+    SlabLanes lanes;
+    NearbyRay nearby;
+    if (HWY_UNLIKELY(root.is_leaf()) ||
+        HWY_UNLIKELY(
+            !start_nearby(layout.frame, Query::slab_slack(layout.frame), ray, lanes, nearby))) {
+        return closest_of_any<W, Query>(scene, ray, hit);
+    }
+    const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
+    const WideNodeOf<W>& node = nodes[root.index()];
+    HWY_ALIGN float range[4];
+    store_lanes(lanes.range, range);
+    Lanes<float, W> entries;
+    const LaneMask<float, W> met = intersect_children(node, lanes, range[0], range[1], entries);
+    const std::uint32_t bits = bits_of(met);
+    hit = Hit{};
+    if (bits == 0) return false;
+    // Before the first jump on the children: what follows one that was not foreseen begins late.
+    Query query(scene, ray, hit, lanes, range[1]);
+    query.prepare_leaves(ray, nearby);
+    const bool follows = begins_near_last(layout.frame, ray);
+    NodeStack<W> stack;
+    std::size_t height = 0;
+    const NodeRef next = next_child<true>(nodes, node, stack, height, entries, met, bits,
+                                          lanes.near.octant, follows, query);
+    (void)traverse_from<true>(nodes, next, stack, height, query.slabs, follows, query, NoStats{});
+    query.finish(NoStats{});
+    return hit.found();
+}
+
 /// `W` children per node. `Stats` is CountingStats, which adds to the statistics of a query, or
 /// NoStats, which ignores them.
 template <std::size_t W, class TriangleTest, class Stats>
@@ -34,6 +79,16 @@ struct Kernels {
         const bool follows = begins_near_last(scene.layout->frame, ray);
         Closest query(scene, ray, best);
         run<W>(query, follows, policy(stats));
+    }
+    static bool closest_of_one(const WideBvhScene& scene, const Ray& ray, Hit& hit,
+                               TraversalStats* stats) {
+        if constexpr (Stats::kCounts) {
+            hit = Hit{};
+            closest(scene, ray, hit, stats);
+            return hit.found();
+        } else {
+            return alhazen::HWY_NAMESPACE::closest_of_one<W, Closest>(scene, ray, hit);
+        }
     }
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
         bool result = false;
@@ -131,6 +186,7 @@ struct Kernels {
     /// precisions: with FloatTriangleTest they are null, and the exact kernels serve instead.
     static constexpr WideBvhKernels table() {
         WideBvhKernels kernels{};
+        kernels.closest_of_one = &closest_of_one;
         kernels.closest = &closest;
         kernels.occluded = &occluded;
         kernels.closest_batch = &closest_batch;

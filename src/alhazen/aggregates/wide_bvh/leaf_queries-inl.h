@@ -11,6 +11,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <type_traits>
 
@@ -69,10 +71,34 @@ struct LeafQuery {
           s_max(r.record.slabs.s_max),
           valid(true) {}
 
+    /// Of a ray that is prepared for nodes, with s_max `end`. `prepare_leaves` does the rest.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared, float end)
+        : ray(r),
+          parameter{s.layout->frame.scale, 0.0},
+          scene(s),
+          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
+          s_max(end),
+          valid(true) {
+        store_slab_ray(prepared, slabs);
+    }
+    /// `r`: the caller's ray; loading lanes of the copy would stall until its stores complete.
+    HWY_INLINE void prepare_leaves(const Ray& r, const NearbyRay& nearby) {
+        AxisLanes axes;
+        finish_nearby(scene.layout->frame, r, nearby, axes);
+        make_triangle_filter_ray(slabs, axes, filter);
+    }
+
     [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
         return Test::slab_slack(frame);
     }
 
+    /// Has the first block of a leaf of triangles come into the caches.
+    HWY_INLINE void fetch(NodeRef ref) const {
+        if (static_cast<LeafType>(ref.kind()) != LeafType::Triangles || blocks == nullptr) return;
+        const auto* block = reinterpret_cast<const char*>(blocks + ref.offset());
+        HWY_UNROLL(5)
+        for (std::size_t i = 0; i < sizeof(TriangleBlock); i += 64) hwy::Prefetch(block + i);
+    }
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, Stats stats) {
         const std::uint32_t count = ref.count();
@@ -136,23 +162,30 @@ struct LeafQuery {
     /// The exact test of a lane. Precondition: the lane is used.
     HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
                                   ShapeHit& hit) const {
-        const BlockId id = block.ids[lane];
-        if (HWY_LIKELY(id.exact())) {
-            const LocalFrame& frame = scene.layout->frame;
-            const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
-            double corner[3][3];
-            HWY_UNROLL(3)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double center = (&frame.center.x)[axis[k]];
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const auto x = static_cast<double>(block.vertex[i][axis[k]][lane]);
-                    corner[i][k] = frame.inverse_scale * x + center;
-                }
+        const Verdict verdict = decide_triangle(block, lane, hit);
+        if (HWY_LIKELY(verdict != Verdict::Unsure)) return verdict == Verdict::Hit;
+        return hits_triangle_scalar(block.ids[lane].id(), hit);
+    }
+    /// The same, but for cases in doubt.
+    HWY_INLINE Verdict decide_triangle(const TriangleBlock& block, std::size_t lane,
+                                       ShapeHit& hit) const {
+        if (HWY_UNLIKELY(!block.ids[lane].exact())) return Verdict::Unsure;
+        const LocalFrame& frame = scene.layout->frame;
+        const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
+        double corner[3][3];
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double center = (&frame.center.x)[axis[k]];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto x = static_cast<double>(block.vertex[i][axis[k]][lane]);
+                corner[i][k] = frame.inverse_scale * x + center;
             }
-            const Verdict verdict = resolve_triangle(ray, axis, corner, hit);
-            if (HWY_LIKELY(verdict != Verdict::Unsure)) return verdict == Verdict::Hit;
         }
-        return hits_triangle_scalar(id.id(), hit);
+        return resolve_triangle(ray, axis, corner, hit);
+    }
+    HWY_NOINLINE bool hits_triangle_scalar(PrimitiveId id, ShapeHit& hit) const {
+        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
+        return intersect_triangle(ray, shear(), a, b, c, hit);
     }
 
   protected:
@@ -173,11 +206,6 @@ struct LeafQuery {
     FilteredLater later_;
 
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
-
-    HWY_NOINLINE bool hits_triangle_scalar(PrimitiveId id, ShapeHit& hit) const {
-        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
-        return intersect_triangle(ray, shear(), a, b, c, hit);
-    }
 
     template <class Stats>
     HWY_INLINE bool visit_block(const TriangleBlock& block, Stats stats) {
@@ -373,9 +401,10 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     WaitingShapes<8> waiting;
 
     /// `found` may hold an earlier hit.
-    template <class GivenRay>
-    HWY_INLINE ClosestQuery(const WideBvhScene& s, const GivenRay& r, Hit& found)
-        : Base(s, r), best(found) {
+    template <class GivenRay, class... Prepared>
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const GivenRay& r, Hit& found,
+                            const Prepared&... prepared)
+        : Base(s, r, prepared...), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -389,7 +418,10 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
             // Written so that NaN is a candidate.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
-            while (HWY_UNLIKELY(!candidates.add(block, lane, found.lo[lane]))) finish(stats);
+            while (HWY_UNLIKELY(!candidates.add(block, lane, found.lo[lane]))) {
+                finish(stats);
+                shrink();
+            }
             if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
@@ -443,29 +475,42 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
         shrink();
         return false;
     }
-    /// Resolves the candidates.
+    /// Resolves the candidates. s_max is that of the last but one hit.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
         this->finish_shapes(stats);
-        candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane)
-                                       HWY_ATTR { resolve(block, lane, stats); });
+        candidates.take_all(s_max,
+                            [&](const TriangleBlock& block, std::size_t lane, bool last) HWY_ATTR {
+                                resolve(block, lane, stats);
+                                if (!last) shrink();
+                            });
     }
     /// As `finish`, in lanes together with candidates of other rays.
     template <class Stats>
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         this->finish_shapes(stats);
-        candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
-            resolution.add(ray, this->filter, best, block, lane, stats);
-        });
+        candidates.take_all(
+            s_max, [&](const TriangleBlock& block, std::size_t lane, bool)
+                       HWY_ATTR { resolution.add(ray, this->filter, best, block, lane, stats); });
     }
 
   private:
     template <class Stats>
     HWY_NOINLINE void resolve(const TriangleBlock& block, std::size_t lane, Stats stats) {
+        // Out of memory, as no address of it is taken.
         ShapeHit hit;
-        if (!this->hits_triangle(block, lane, hit)) return;
+        const Verdict verdict = this->decide_triangle(block, lane, hit);
+        if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return resolve_scalar(block.ids[lane], stats);
+        if (verdict == Verdict::Missed) return;
         stats.primitive_hits(1);
-        accept(block.ids[lane], hit);
+        offer_hit(hit, block.ids[lane].id(), ray, best);
+    }
+    template <class Stats>
+    HWY_NOINLINE void resolve_scalar(BlockId id, Stats stats) {
+        ShapeHit hit;
+        if (!this->hits_triangle_scalar(id.id(), hit)) return;
+        stats.primitive_hits(1);
+        offer_hit(hit, id.id(), ray, best);
     }
     HWY_INLINE void shrink() {
         const float s = parameter.above(ray.t_max);

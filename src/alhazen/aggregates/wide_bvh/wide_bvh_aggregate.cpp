@@ -87,6 +87,8 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
 
 void WideBvhAggregate::finish_build() {
     outside_ = UnboundedParts(table_, unbounded_);
+    all_ = scene(kAllRays);
+    only_tree_ = outside_.empty() && !layout_.tree.empty;
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
                            kernels_.plain.closest_coherent != nullptr);
     // Incoherent rays read the meshes at random.
@@ -129,6 +131,13 @@ void WideBvhAggregate::complete(const Ray&, double, PrimitiveId primitive, Surfa
 }
 
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    if (asks_tree_alone(query)) [[likely]] {
+        return kernels_.plain.closest_of_one(all_, ray, hit, nullptr);
+    }
+    return closest_of_any(ray, hit, query);
+}
+
+bool WideBvhAggregate::closest_of_any(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
     outside_.closest(table_, ray, hit, query);
     if (!layout_.tree.empty)
@@ -137,6 +146,13 @@ bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
 }
 
 bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
+    if (asks_tree_alone(query)) [[likely]] {
+        return kernels_.plain.occluded(all_, ray, nullptr);
+    }
+    return occluded_by_any(ray, query);
+}
+
+bool WideBvhAggregate::occluded_by_any(const Ray& ray, RayQuery query) const {
     if (outside_.occluded(table_, ray, query)) return true;
     return !layout_.tree.empty &&
            kernels_.for_stats(query.stats).occluded(scene(query.mask), ray, query.stats);
@@ -181,11 +197,19 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
     WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
-        case Schedule::Single:
+        case Schedule::Single: {
+            // Without earlier hits that limit a ray.
+            if (outside_.empty()) {
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    (void)kernels.closest_of_one(seen, rays[i], hits[i], query.stats);
+                }
+                return;
+            }
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 kernels.closest(seen, rays[i], hits[i], query.stats);
             }
             return;
+        }
         case Schedule::Stream:
             return kernels.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:

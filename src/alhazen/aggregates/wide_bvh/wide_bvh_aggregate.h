@@ -72,6 +72,15 @@ class WideBvhAggregate final : public Aggregate {
 
     /// Sets the members that depend on the table and the layout.
     void finish_build();
+    /// Whether all that a query may see is in the tree, and nothing is counted.
+    [[nodiscard]] bool asks_tree_alone(const RayQuery& query) const {
+        return only_tree_ && query.stats == nullptr && query.mask == kAllRays;
+    }
+    /// As `closest` and `occluded`, for every scene and query. Out of line: most rays need neither
+    /// a scene of their own nor the room for it.
+    [[nodiscard, gnu::noinline]] bool closest_of_any(const Ray& ray, Hit& hit,
+                                                     RayQuery query) const;
+    [[nodiscard, gnu::noinline]] bool occluded_by_any(const Ray& ray, RayQuery query) const;
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
     [[nodiscard]] WideBvhScene batch_scene(RayMask mask) const {
         WideBvhScene seen = scene(mask);
@@ -105,6 +114,8 @@ class WideBvhAggregate final : public Aggregate {
     Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit
     WideBvhKernelPair kernels_;
+    WideBvhScene all_{table_, layout_};  ///< for rays that see everything
+    bool only_tree_ = false;             ///< every primitive is in the tree, which is not empty
     mutable PacketFailures closest_failures_{0}, occluded_failures_{0};
 };
 

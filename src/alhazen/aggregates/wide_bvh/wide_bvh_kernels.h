@@ -52,6 +52,8 @@ class WideBvhScene {
 /// are appended unsorted; an invalid ray hits nothing. Statistics: not null for kernels that count,
 /// ignored by the others.
 struct WideBvhKernels {
+    /// Sets the hit, and returns whether there is one.
+    bool (*closest_of_one)(const WideBvhScene&, const Ray&, Hit&, TraversalStats*);
     /// `best` may hold an earlier hit, and limits the search.
     void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
     bool (*occluded)(const WideBvhScene&, const Ray&, TraversalStats*);

@@ -19,6 +19,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/node_stack-inl.h"
@@ -58,6 +59,30 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
     return entry <= exit;
 }
 
+/// The same for a ray that has just been prepared, whose rows are not in memory yet: loads would
+/// wait for their stores.
+template <std::size_t W>
+HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabLanes& ray,
+                                                 float s_min, float s_max, Lanes<float, W>& entry) {
+    using F = Lanes<float, W>;
+    const float* planes = node.planes[0];
+    F near[3], far[3];
+    const auto meet = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) HWY_ATTR {
+        const F reciprocal = spread<k, W>(ray.reciprocal);
+        near[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.row[k]), reciprocal,
+                          spread<k, W>(ray.near_offset));
+        far[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
+                         spread<k, W>(ray.far_offset));
+    };
+    meet(std::integral_constant<std::size_t, 0>());
+    meet(std::integral_constant<std::size_t, 1>());
+    meet(std::integral_constant<std::size_t, 2>());
+    entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(s_min)));
+    const F exit =
+        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    return entry <= exit;
+}
+
 /// The child of a slot. `follows`: by a jump to the load of each slot. A processor that foresees
 /// the jump, because the rays before took it, fetches the child before the boxes are tested; one
 /// that does not loses the time of a branch.
@@ -88,19 +113,69 @@ HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool fo
     return node.child[slot];
 }
 
-/// Visits the leaves that the ray meets, nearest first if `kOrdered`, else in the order of slots,
-/// until `leaf.visit` returns true; returns whether it did. `follows`: the ray probably
-/// takes the way of the one before it.
-template <bool kOrdered, std::size_t W, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, bool follows,
-                         Leaf& leaf, Stats stats) {
-    NodeStack<W> stack;
-    std::size_t height = 0;
-    NodeRef ref = root;
+/// Fetches a child, or the first block of a leaf.
+template <std::size_t W, class Leaf>
+HWY_INLINE void fetch_child(const WideNodeOf<W>* nodes, NodeRef child, const Leaf& leaf) {
+    if (child.is_leaf()) return leaf.fetch(child);
+    const auto* node = reinterpret_cast<const char*>(nodes + child.index());
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < sizeof(*nodes); i += 64) hwy::Prefetch(node + i);
+}
+
+/// The child to visit next of those that the ray meets (`met`, bits `hit`, not none); the others go
+/// onto the stack. Nearest first if `kOrdered`, else in the order of slots. `follows`: the ray
+/// probably takes the way of the one before it.
+template <bool kOrdered, std::size_t W, class Leaf>
+HWY_INLINE NodeRef next_child(const WideNodeOf<W>* nodes, const WideNodeOf<W>& node,
+                              NodeStack<W>& stack, std::size_t& height,
+                              const Lanes<float, W>& entries, const LaneMask<float, W>& met,
+                              std::uint32_t hit, std::uint32_t octant, bool follows,
+                              const Leaf& leaf) {
     const auto push = [&](float entry, NodeRef child) HWY_ATTR {
         stack.entry[height] = entry;
         stack.child[height++] = child.bits();
     };
+    const auto first = static_cast<std::size_t>(std::countr_zero(hit));
+    std::uint32_t rest = hit & (hit - 1);
+    if (rest == 0) return child_of(node, first, follows);
+    const auto second = static_cast<std::size_t>(std::countr_zero(rest));
+    rest &= rest - 1;
+    if constexpr (kOrdered) {
+        // One is visited as soon as it is known which, the other later.
+        if constexpr (requires { leaf.fetch(NodeRef()); }) {
+            fetch_child(nodes, node.child[first], leaf);
+            fetch_child(nodes, node.child[second], leaf);
+        }
+        // Nobody foresees which of two is nearer, unless rays follow each other.
+        if (rest != 0 || !follows) {
+            const std::size_t nearest =
+                stack.push_but_nearest(height, node, entries, met, hit, octant);
+            return child_of(node, nearest, follows);
+        }
+    }
+    HWY_ALIGN float entry[W];
+    store_lanes(entries, entry);
+    if constexpr (kOrdered) {
+        const bool swap = is_nearer<W>(entry[second], entry[first]);
+        const std::size_t later = swap ? first : second;
+        push(entry[later], node.child[later]);
+        return child_of(node, swap ? second : first, follows);
+    } else {
+        for (; rest != 0; rest &= ~(0x80000000u >> std::countl_zero(rest))) {
+            const auto slot = static_cast<std::size_t>(31 - std::countl_zero(rest));
+            push(entry[slot], node.child[slot]);
+        }
+        push(entry[second], node.child[second]);
+        return child_of(node, first, follows);
+    }
+}
+
+/// Visits the leaves that the ray meets in the subtrees of `ref` and of the stack, nearest first if
+/// `kOrdered`, else in the order of slots, until `leaf.visit` returns true; returns whether it did.
+template <bool kOrdered, std::size_t W, class Leaf, class Stats>
+HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack<W>& stack,
+                              std::size_t height, const SlabRay& ray, bool follows, Leaf& leaf,
+                              Stats stats) {
     while (true) {
         if (ref.is_leaf()) {
             if (leaf.visit(ref, stats)) return true;
@@ -112,40 +187,10 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
             stats.boxes(node.child_count());
             Lanes<float, W> entries;
             const LaneMask<float, W> met = intersect_children(node, ray, leaf.s_max, entries);
-            std::uint32_t hit = bits_of(met);
+            const std::uint32_t hit = bits_of(met);
             if (hit != 0) {
-                const auto first = static_cast<std::size_t>(std::countr_zero(hit));
-                std::uint32_t rest = hit & (hit - 1);
-                if (rest == 0) {
-                    ref = child_of(node, first, follows);
-                    continue;
-                }
-                const auto second = static_cast<std::size_t>(std::countr_zero(rest));
-                rest &= rest - 1;
-                if constexpr (kOrdered) {
-                    // Nobody foresees which of two is nearer, unless rays follow each other.
-                    if (rest != 0 || !follows) {
-                        const std::size_t nearest = stack.push_but_nearest(
-                            height, node, entries, met, hit, ray.near.octant);
-                        ref = child_of(node, nearest, follows);
-                        continue;
-                    }
-                }
-                HWY_ALIGN float entry[W];
-                store_lanes(entries, entry);
-                if constexpr (kOrdered) {
-                    const bool swap = is_nearer<W>(entry[second], entry[first]);
-                    const std::size_t later = swap ? first : second;
-                    push(entry[later], node.child[later]);
-                    ref = child_of(node, swap ? second : first, follows);
-                } else {
-                    for (; rest != 0; rest &= ~(0x80000000u >> std::countl_zero(rest))) {
-                        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(rest));
-                        push(entry[slot], node.child[slot]);
-                    }
-                    push(entry[second], node.child[second]);
-                    ref = child_of(node, first, follows);
-                }
+                ref = next_child<kOrdered>(nodes, node, stack, height, entries, met, hit,
+                                           ray.near.octant, follows, leaf);
                 continue;
             }
         }
@@ -157,6 +202,14 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                  std::bit_cast<std::int32_t>(leaf.s_max));
         ref = NodeRef::from_bits(stack.child[height]);
     }
+}
+
+/// `traverse_from` the root of the tree.
+template <bool kOrdered, std::size_t W, class Leaf, class Stats>
+HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, bool follows,
+                         Leaf& leaf, Stats stats) {
+    NodeStack<W> stack;
+    return traverse_from<kOrdered>(nodes, root, stack, 0, ray, follows, leaf, stats);
 }
 
 }  // namespace HWY_NAMESPACE
