@@ -26,7 +26,7 @@ REPEATS = "alhazen_portable_kernels_test"
 # Programs of heavy entries alone.
 HEAVY = ("alhazen_heavy_test", REPEATS)
 # No GoogleTest programs.
-OTHERS = ("alhazen_c_api_test", "alhazen_c_callbacks_test")
+OTHERS = ("alhazen_c_api_test", "alhazen_c_callbacks_test", "alhazen_c_threads_test")
 
 
 def test_names(program, *options):

@@ -12,6 +12,7 @@
 #include "../viewer/view_session.h"
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/heap.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -49,6 +50,7 @@ int run_view(ViewArguments& args) {
                                 args.address));
     }
     check_accelerator(args.scene.accelerator);
+    use_one_heap();  // any thread renders the next frame
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
     // Most errors are found at once; then no page is opened.
     session.scenes().wait_for_first(std::chrono::milliseconds(300));

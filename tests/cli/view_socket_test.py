@@ -215,6 +215,21 @@ class ViewSocket(ServerTest):
             ids.append(frames.picture()[0]["id"])
         self.assertLess(len(ids), 50)
 
+    def test_frames_one_after_another_take_the_memory_of_one(self):
+        if SLOWDOWN > 1:
+            self.skipTest("sanitizers keep what is freed")
+        # A new server: none of its threads has rendered.
+        server = Server(ALHAZEN, self.scene)
+        self.addCleanup(server.close)
+        before = server.state()["memory"]
+        frames = server.open_frames()
+        self.addCleanup(frames.close)
+        for i in range(60):
+            frames.send({**WISH, "id": i, "width": 640, "height": 480, "raw": True, "moving": True})
+            frames.picture()
+            frames.send({"shown": i})
+        self.assertLess(server.state()["memory"] - before, 48 << 20)
+
     def test_eight_clients_have_their_frames_and_a_ninth_is_refused(self):
         # Connections of other tests may remain open briefly.
         clients, begin = [], time.monotonic()

@@ -29,4 +29,10 @@ void prepare_heap() {
 #endif
 }
 
+void use_one_heap() {
+#ifdef __GLIBC__
+    (void)mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 }  // namespace alhazen

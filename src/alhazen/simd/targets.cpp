@@ -54,15 +54,21 @@ std::int64_t targets_of_machine() {
 
 #endif
 
+/// What a processor must have for the weakest compiled target.
+std::string least_instructions() {
+#if HWY_ARCH_X86
+    if (HWY_STATIC_TARGET == HWY_SSE4) return "SSE4.2, AES and PCLMUL";
+#endif
+    return hwy::TargetName(HWY_STATIC_TARGET);
+}
+
 /// The compiled targets that this machine supports. Throws Error (Usage) if there are none.
 std::int64_t usable_targets() {
     const std::int64_t targets = targets_of_machine() & HWY_TARGETS;
     if (targets == 0) {
         throw Error(ErrorKind::Usage,
-                    std::string("this processor lacks instructions that this build of Alhazen "
-                                "needs (") +
-                        hwy::TargetName(HWY_STATIC_TARGET) +
-                        "); build with -DALHAZEN_KERNELS=portable");
+                    "this processor lacks instructions that this build of Alhazen needs (" +
+                        least_instructions() + "); build with -DALHAZEN_KERNELS=portable");
     }
     return targets;
 }

@@ -100,6 +100,26 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListAtAnySize) {
     }
 }
 
+TEST(BuildQuality, AllTakeMoreVerticesThanHave32BitNumbers) {
+    // One mesh of a triangle and many unused vertices, 4096 times.
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesh->positions.resize(std::size_t{1} << 20);
+    mesh->positions[5] = {1, 0, 0};
+    mesh->positions[7] = {0, 1, 0};
+    mesh->triangles = {{0, 5, 7}};
+    PrimitiveTable table;
+    table.material_opacity = {Opacity::Opaque};
+    table.meshes.assign(4096, PlacedMesh{.mesh = mesh});
+    table.finish();
+    const Ray ray{{0.25, 0.25, 1}, {0, 0, -1}, 0, 1e300};
+    for (const BuildQuality quality : kQualities) {
+        Hit hit;
+        ASSERT_TRUE(make_aggregate("wide_bvh", table, {quality})->closest(ray, hit, nullptr))
+            << name_of(quality);
+        EXPECT_EQ(hit.primitive, PrimitiveId{0});
+    }
+}
+
 TEST(BuildQuality, HighDividesLongTrianglesAndCostsLess) {
     // Beams across a hall, as in a building, with small objects among them.
     RandomEngine random(47);

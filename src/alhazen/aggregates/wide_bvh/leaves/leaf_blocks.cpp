@@ -132,7 +132,7 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     layout.frame = LocalFrame(box_of_bounded(bounded));
     LeafWriter writer(table, options.leaves, layout);
     const std::uint32_t width = options.precision == Precision::Fast ? 8 : options.width;
-    if (options.quality == BuildQuality::Fast) {
+    if (options.quality == BuildQuality::Fast && LocalVertices::can_number(table)) {
         TableCurve primitives(bounded, writer);
         layout.tree = build_along_curve(primitives, kLeafKindTable, width);
         return layout;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
@@ -121,6 +122,12 @@ float sum_of(Float4 v) {
 }
 
 }  // namespace
+
+bool LocalVertices::can_number(const PrimitiveTable& table) {
+    std::uint64_t count = 3;
+    for (const PlacedMesh& placed : table.meshes) count += placed.mesh->positions.size();
+    return count <= std::uint64_t{1} << 32;
+}
 
 LocalVertices::LocalVertices(const PrimitiveTable& table, const LocalFrame& frame) {
     std::uint32_t count = 0;

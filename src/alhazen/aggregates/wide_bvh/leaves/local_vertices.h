@@ -22,6 +22,11 @@ struct LaneTriangles {
 
 class LocalVertices {
   public:
+    /// True if the vertices of the meshes, one mesh used several times counted as often, and three
+    /// corners more have 32-bit numbers.
+    [[nodiscard]] static bool can_number(const PrimitiveTable& table);
+
+    /// The vertices must have numbers.
     LocalVertices(const PrimitiveTable& table, const LocalFrame& frame);
 
     /// The vertices of the i-th mesh begin with this number.
