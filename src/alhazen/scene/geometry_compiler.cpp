@@ -27,10 +27,13 @@ RayMask complete(RayMask mask) {
     return (mask & mask_of(RayKind::Shadow)) != 0 ? mask | kConnectingRays : mask;
 }
 
-/// True if rays of light transport see the part, but not all kinds of them.
-bool is_partial(RayMask mask) {
-    const RayMask own = mask & kLightSurfaceMask;
-    return own != 0 && own != kLightSurfaceMask;
+/// Rays from a point that scatters to a light: those that connect, and those that may hit it.
+constexpr RayMask kRaysToLights =
+    kConnectingRays | mask_of(RayKind::Reflection) | mask_of(RayKind::Refraction);
+
+/// True if some of `rays` see the part, but not all.
+bool is_seen_by_some(RayMask mask, RayMask rays) {
+    return (mask & rays) != 0 && (mask & rays) != rays;
 }
 
 /// The positions and directions of lights, as end points of shadow rays.
@@ -87,6 +90,7 @@ void GeometryCompiler::build(Scene& scene) {
     }
     scene.has_masks = has_masks_;
     scene.has_partial_masks = has_partial_masks_;
+    scene.hides_lights_from_some = hides_lights_from_some_;
     scene.has_motion = census_.moving_things > 0;
     scene.census = census_;
     scene.accelerator = options_.accelerator;
@@ -146,7 +150,10 @@ GeometryCompiler::PlacedPart GeometryCompiler::place(const Part& part,
     const PlacedPart placed{part, outer_from_object * part.object_from_part, number,
                             visible_to & complete(part.visible_to)};
     has_masks_ = has_masks_ || placed.visible_to != kAllRays;
-    has_partial_masks_ = has_partial_masks_ || is_partial(placed.visible_to);
+    has_partial_masks_ =
+        has_partial_masks_ || is_seen_by_some(placed.visible_to, kLightSurfaceMask);
+    hides_lights_from_some_ =
+        hides_lights_from_some_ || is_seen_by_some(placed.visible_to, kRaysToLights);
     return placed;
 }
 

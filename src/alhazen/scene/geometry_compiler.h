@@ -119,7 +119,7 @@ class GeometryCompiler {
     std::set<std::pair<MaterialId, MaterialId>> walls_;  ///< as in WallMaterial
     std::vector<std::uint32_t> mesh_uses_;               ///< [mesh]
     std::vector<Moves> moves_;                           ///< [object] moves_inside
-    bool has_masks_ = false, has_partial_masks_ = false;
+    bool has_masks_ = false, has_partial_masks_ = false, hides_lights_from_some_ = false;
     SceneCensus census_;
 };
 

@@ -59,6 +59,9 @@ struct Scene {
     /// Some part is visible to some kinds of rays of light transport (kConnectingRays included),
     /// but not to all.
     bool has_partial_masks = false;
+    /// Some part is visible to some of reflected, refracted and connecting rays (kConnectingRays),
+    /// but not to all of them.
+    bool hides_lights_from_some = false;
     bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
     /// [material] 1: its appearance depends on texture coordinates; empty: none does.

@@ -32,6 +32,7 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
     : job_(job),
       scene_(job.scene),
       lights_(lights),
+      weights_(scene_),
       settings_(settings),
       counters_(counters),
       stats_(job.count_tests ? &counters.tests : nullptr),
@@ -137,6 +138,7 @@ void BidirectionalTracer::set_light(const LightEnd& end, const LitVertex& lit) {
     };
     zero.from_eye = there(lit.eye_density) * lit.backward;
     path_.joined = there(drawn);
+    if (is_only_joined()) path_.hit = false;
 }
 
 void BidirectionalTracer::set_light_of_path(double eye_density) {
@@ -162,6 +164,7 @@ void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
     of_eye(b - 2).from_light = at_vertex_before(last.emit.direction, last, lit_vertex);
     if (b >= 3) of_eye(b - 3).from_light = eye_[b - 3].reverse;
     path_.joined = last.joined;
+    if (is_only_joined()) return;
     sum += path_weight(path_, 0) * light;
 }
 
@@ -184,6 +187,7 @@ void BidirectionalTracer::hit_environment(Spectrum& sum) {
     of_eye(b - 1).from_light = emit.place * last.facing(escape_.direction) * escape_.backward;
     if (b >= 2) of_eye(b - 2).from_light = eye_[b - 2].reverse;
     path_.joined = lights_.environment_density(last.lit(), escape_.direction);
+    if (is_only_joined()) return;
     sum += path_weight(path_, 0) * light;
 }
 

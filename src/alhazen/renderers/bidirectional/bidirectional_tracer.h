@@ -14,6 +14,7 @@
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/splat_film.h"
 
@@ -87,10 +88,16 @@ class BidirectionalTracer {
     void set_light(const LightEnd& end, const LitVertex& lit);
     /// The same for a path whose first vertex is that of `light_`.
     void set_light_of_path(double eye_density);
+    /// True if light that hits find at vertex 1 of `path_`, which is set up to `joined`, is left to
+    /// the strategies that connect.
+    [[nodiscard]] bool is_only_joined() const {
+        return weights_.shadow_rays_alone() && path_.joined > 0.0 && !path_.vertices[1].singular;
+    }
 
     const RenderJob& job_;
     const Scene& scene_;
     const Illumination& lights_;
+    DirectLightWeights weights_;
     PathSettings settings_;
     RayCounters& counters_;
     TraversalStats* stats_;

@@ -31,6 +31,7 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     start.throughput = (cosine / densities) * light.radiance;
     start.parallel = light.infinite;
     start.as_connection = !light.is_hit;
+    start.of_either = light.is_hit && scene_.hides_lights_from_some;
     if (light.infinite) {
         if (is_endless_) begin_from_infinity(start);
     } else {

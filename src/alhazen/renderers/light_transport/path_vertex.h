@@ -38,7 +38,8 @@ struct PathVertex {
     double back = 0;         ///< by solid angle, towards the vertex before; needs one more vertex
     double forward = 1;      ///< share of walks from the vertex before that reach it and stop
     double backward = 1;     ///< share of walks from it that reach the vertex before and stop
-    RayMask seen_by = kAllRays;      ///< rays that see its surface; set by paths from lights
+    RayMask seen_by = kAllRays;      ///< rays that see its surface, 0: no strategy connects it; set
+                                     ///< by paths from lights
     bool singular = false;           ///< the path continued by a singular lobe
     MediumStack media;               ///< in front of it
     Spectrum emission;               ///< emitted towards the path

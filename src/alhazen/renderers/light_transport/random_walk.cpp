@@ -168,7 +168,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
     front.ray.direction = drawn->direction;
     if (drawn->straight) return Step::Straight;
-    if ((passed_ && drawn->singular) || (v.seen_by & mask_of(kind_)) == 0) return Step::Ends;
+    if (!continues(drawn->singular) || (v.seen_by & mask_of(kind_)) == 0) return Step::Ends;
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
     v.singular = drawn->singular;
     front.density = drawn->singular ? 1.0 : drawn->density;
@@ -184,7 +184,7 @@ RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkRandomnes
                                                std::uint32_t pair, const Ends& ends) {
     PathVertex& v = ends.v;
     v.hero_only = front.waves.hero_only();
-    if (ends.last || !(front.throughput.max() > 0.0)) return Step::Ends;
+    if (ends.last || !continues(false) || !(front.throughput.max() > 0.0)) return Step::Ends;
     const InsideVolume& volume = v.volume.value;
     const Vec3 direction = sample_henyey_greenstein(volume.along, volume.anisotropy,
                                                     draws.random.draw(draws.id, pair));
@@ -192,6 +192,12 @@ RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkRandomnes
     front.ray.direction = direction;
     front.density = v.back = v.density_along(direction);
     return Step::Scattered;
+}
+
+void RandomWalk::choose_first(Front& front, const WalkRandomness& draws) {
+    connects_ = draws.random.extra(draws.id, of_walk(draws, chosen_++), 0) < 0.5;
+    first_ = connects_ ? FirstSegment::Connected : FirstSegment::Hit;
+    front.throughput = 2.0 * front.throughput;
 }
 
 void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRandomness& draws,
@@ -205,10 +211,12 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
     connects_ = start.as_connection;
+    first_ = FirstSegment::Any;
     chooses_ = !from_eye && surfaces_.exist();
     chosen_ = 0;
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
+    if (start.of_either) choose_first(front, draws);
     int count = 0;
     for (std::uint32_t pair = draws.first_pair; count < draws.most; pair += kWalkPairs) {
         const Meets meets = find(front, draws, start);
@@ -226,7 +234,9 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
                               ? scatter_in_volume(front, draws, pair, ends)
                               : scatter_at_surface(transport, front, draws, pair, ends);
         if (step == Step::Ends) {
-            if ((v.seen_by & kRaysOfPaths) == 0) vertices.pop_back();
+            if (first_ == FirstSegment::Hit || (v.seen_by & kRaysOfPaths) == 0) {
+                vertices.pop_back();
+            }
             return;
         }
         if (step == Step::Straight) {
@@ -236,6 +246,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
             front.ray = leaving_ray(point_.surface, front.ray.direction);
             continue;
         }
+        if (first_ == FirstSegment::Hit) v.seen_by = 0;
         front.parallel = false;
         if (ends.before != nullptr) {
             ends.before->reverse =
@@ -252,6 +263,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
         }
         front.ray = v.leaving(front.ray.direction, kEndless);
         connects_ = false;
+        first_ = FirstSegment::Any;
         travelled_ = 0.0;
         flight_.begin();
     }

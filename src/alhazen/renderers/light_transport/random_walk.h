@@ -19,6 +19,14 @@
 
 namespace alhazen {
 
+/// The first segment of a light path, by which strategies find the same light.
+enum class FirstSegment : std::uint8_t {
+    Any,        ///< all of them
+    Connected,  ///< shadow rays: it passes what connections pass, and ends where light scatters by
+                ///< a density
+    Hit,        ///< rays that hit the light: after it the path continues by a singular lobe
+};
+
 /// The beginning of a walk.
 struct WalkStart {
     Ray ray;
@@ -30,6 +38,9 @@ struct WalkStart {
     /// The first segment passes what connections to the light pass: no ray hits the light, so that
     /// all other strategies connect to it.
     bool as_connection = false;
+    /// Connections to the light and rays that hit it pass different parts: the first segment is of
+    /// either kind (FirstSegment).
+    bool of_either = false;
     float time = 0;
     MediumStack media;  ///< around the origin
 };
@@ -85,6 +96,13 @@ class RandomWalk {
     enum class Meets : std::uint8_t { Nothing, Surface, Volume };
     enum class Step : std::uint8_t { Ends, Straight, Scattered };
 
+    /// Chooses between the kinds of first segments.
+    void choose_first(Front& front, const WalkRandomness& draws);
+    /// True if a path may continue by that kind of lobe after the segment.
+    [[nodiscard]] bool continues(bool singular) const {
+        if (singular) return !passed_ && first_ != FirstSegment::Connected;
+        return first_ != FirstSegment::Hit;
+    }
     [[nodiscard]] RayMask mask() const {
         return connects_ && !passed_ ? kConnectingRays : mask_of(kind_);
     }
@@ -137,10 +155,11 @@ class RandomWalk {
     FreeFlight flight_;          ///< since the last vertex
     double eta_scale_ = 1;
     RayKind kind_ = RayKind::Eye;
-    bool connects_ = false;     ///< the segment is that of WalkStart::as_connection
-    bool chooses_ = false;      ///< it may end at surfaces that do not block it
-    bool passed_ = false;       ///< `hit_` is such a surface
-    std::uint32_t chosen_ = 0;  ///< number of choices
+    bool connects_ = false;                   ///< the segment passes what connections pass
+    FirstSegment first_ = FirstSegment::Any;  ///< of the segment; others than the first: Any
+    bool chooses_ = false;                    ///< it may end at surfaces that do not block it
+    bool passed_ = false;                     ///< `hit_` is such a surface
+    std::uint32_t chosen_ = 0;                ///< number of choices
     Escape escape_;
 };
 

@@ -301,9 +301,11 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     Spectrum share = Spectrum::all(1.0);
     const ShapeSurface* from = &at_->surface;
     Vec3 direction = chain_.direction;
+    RayKind ray_kind =
+        dot(direction, at_->scatter.geometric()) < 0.0 ? RayKind::Refraction : RayKind::Reflection;
     const auto pass = [&](const MediumStack& in, double distance) {
-        share = share * shadows_.passing(leaving_ray(*from, direction, kBeforeEnd * distance),
-                                         at_->time, in, at_->waves);
+        share = share * shadows_.between(leaving_ray(*from, direction, kBeforeEnd * distance),
+                                         at_->time, ray_kind, in, at_->waves, nullptr);
         return !share.is_black();
     };
     for (int i = 0; i < chain_.length(); ++i) {
@@ -311,6 +313,7 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
         if (!pass(media, v.travelled)) return {};
         from = &v.surface;
         direction = v.leaving;
+        ray_kind = refracts(chain_.kind) ? RayKind::Refraction : RayKind::Reflection;
         if (i + 1 == chain_.length()) break;
         set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {}, point_);
         vertex_.set(scene_, point_, media, at_->waves);
@@ -318,6 +321,8 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     }
     const double rest =
         end_.infinite ? std::numeric_limits<double>::infinity() : length(end_.at - from->point);
+    // Rays along the chain find the light if they can hit it.
+    if (!pick_.is_hit) ray_kind = RayKind::Shadow;
     if (!pass(last, rest)) return {};
     return share;
 }

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "alhazen/renderers/light_transport/emission_of.h"
-#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
@@ -111,7 +110,7 @@ void PathTracer::add_far_light(const EyePath& path, const Illumination::FarLight
         light = light * transmittance(waves(path).absorption(medium->absorption),
                                       std::numeric_limits<double>::infinity());
     }
-    if (!path.singular) light = power_heuristic(path.density, far.density) * light;
+    if (!path.singular) light = weights_.of_hit(path.density, far.density) * light;
     add(path, light, sum);
 }
 
@@ -126,7 +125,7 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
         // Unlit surfaces show their colour and emit no light.
         if (point.material->unlit) return;
         const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
-        light = power_heuristic(path.density, other) * light;
+        light = weights_.of_hit(path.density, other) * light;
     }
     add(path, light, sum);
 }
@@ -139,7 +138,7 @@ void PathTracer::add_direct_light(const Vertex& vertex, const LightDraw& drawn, 
     if (light.is_black()) return;
     double weight = 1.0 / drawn.density;
     if (!drawn.singular) {
-        weight *= power_heuristic(drawn.density, scatter.density(drawn.to_light));
+        weight *= weights_.of_shadow_ray(drawn.density, scatter.density(drawn.to_light));
     }
     light = path.throughput * (weight * light);
     const bool goes_behind = dot(drawn.to_light, scatter.geometric()) < 0.0;

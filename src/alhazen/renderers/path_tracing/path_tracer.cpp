@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
@@ -15,6 +14,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       scene_(job.scene),
       lights_(lights),
       chooses_light_(lights.chooses()),
+      weights_(scene_),
       settings_(settings),
       counters_(counters),
       random_(job),
@@ -35,6 +35,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       media_(scene_),
       layers_(layers),
       manifold_(manifold) {
+    lanes_.shadow_rays_alone = weights_.shadow_rays_alone();
     if (media_.has_open_boundaries()) visible_.report_openings();
     if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
 }
@@ -188,8 +189,8 @@ void PathTracer::scatter_all() {
         const EyePath& path = *vertex.path;
         const Vec2 place = random_.draw(path.sample, path.drawn, PathRandomness::kLight);
         const double choice = choices(path, chooses_light_).y;
-        draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.is_lit_from_both_sides()}, choice,
-                   place, waves(path));
+        draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.is_lit_from_both_sides()},
+                   choice, place, waves(path));
     }
     draws_.draw();
     draw_directions(vertices);
@@ -268,7 +269,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     if (drawn.density > 0.0 && !drawn.radiance.is_black()) {
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
-        if (!drawn.singular) weight *= power_heuristic(drawn.density, phase);
+        if (!drawn.singular) weight *= weights_.of_shadow_ray(drawn.density, phase);
         const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
         const Spectrum shown =
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);

@@ -16,6 +16,7 @@
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
+#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
@@ -199,6 +200,7 @@ class PathTracer {
     const Scene& scene_;
     const Illumination& lights_;
     bool chooses_light_;  ///< Illumination::chooses
+    DirectLightWeights weights_;
     PathSettings settings_;
     RayCounters& counters_;
     PathRandomness random_;

@@ -123,12 +123,12 @@ HWY_INLINE void weigh(const LightDrawLanes& lights, VertexLanes& v) {
     const D zero(0.0), one(1.0);
     const LaneMask<double, N> lit = lanes_of_bits<double, N>(v.lit);
     const D density = select_lanes(lit, load_lanes<N>(lights.density), one);
-    // power_heuristic; singular lights are found by no other strategy.
+    // DirectLightWeights; singular lights are found by no other strategy.
+    const std::uint32_t alone = v.shadow_rays_alone ? v.lit : lights.singular;
     const D ratio = select_lanes(lit, load_lanes<N>(v.density), zero) / density;
     const D sure = one / density, shared = sure * (one / (one + ratio * ratio));
-    const D weight = lights.singular == 0
-                         ? shared
-                         : select_lanes(lanes_of_bits<double, N>(lights.singular), sure, shared);
+    const D weight =
+        alone == 0 ? shared : select_lanes(lanes_of_bits<double, N>(alone), sure, shared);
     D brightest(0.0);
     for (int i = 0; i < 4; ++i) {
         const D value = select_lanes(lit, load_lanes<N>(v.value[i]), zero);

@@ -54,8 +54,9 @@ struct VertexLanes {
     alignas(64) Vectors next = {};      ///< sampled direction, in the frame
     alignas(64) Numbers next_density = {};
     alignas(64) Spectra next_weight = {};
-    std::uint32_t lit = 0;      ///< lanes with light above the surface
-    std::uint32_t sampled = 0;  ///< lanes with a next direction
+    bool shadow_rays_alone = false;  ///< DirectLightWeights; set before `weigh`
+    std::uint32_t lit = 0;           ///< lanes with light above the surface
+    std::uint32_t sampled = 0;       ///< lanes with a next direction
 
     // Of `weigh`; `lit` and `sampled` are then the lanes that have a ray.
     alignas(64) Spectra light = {};

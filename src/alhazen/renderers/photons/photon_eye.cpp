@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "alhazen/renderers/light_transport/emission_of.h"
-#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/renderers/photons/photon_density.h"
 #include "alhazen/sampling/even_numbers.h"
@@ -48,6 +47,7 @@ PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumina
       settings_(settings),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       lights_(lights),
+      weights_(scene_),
       random_(job),
       camera_(job),
       next_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
@@ -211,7 +211,7 @@ Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
     const Spectrum light = path.throughput * lights_.environment(path.ray.direction, *path.waves);
     if (light.is_black() || last.singular) return light;
     const double other = lights_.environment_density(last.from, path.ray.direction);
-    return power_heuristic(last.density, other) * light;
+    return weights_.of_hit(last.density, other) * light;
 }
 
 Spectrum PhotonEye::emitted(const Branch& at) const {
@@ -232,7 +232,7 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
     if (point.material->unlit) return {};
     const double other =
         lights_.density(last.from, path.ray, next_.hit(), point.surface, path.travelled);
-    return power_heuristic(last.density, other) * light;
+    return weights_.of_hit(last.density, other) * light;
 }
 
 Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
@@ -271,7 +271,7 @@ void PhotonEye::add_shadow_ray(const Branch& branch, double choice, const Vec2& 
     if (light.is_black()) return;
     double weight = share / drawn.density;
     const double other = drawn.singular ? 0.0 : scatter_.density(drawn.to_light);
-    if (other > kGlossyDensity) weight *= power_heuristic(drawn.density, other);
+    if (other > kGlossyDensity) weight *= weights_.of_shadow_ray(drawn.density, other);
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,

@@ -19,6 +19,7 @@
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/photons/next_surface.h"
 
 namespace alhazen {
@@ -127,6 +128,7 @@ class PhotonEye {
                                          int& event) const;
 
     const Illumination& lights_;
+    DirectLightWeights weights_;
     PathRandomness random_;
     CameraRays camera_;
     NextSurface next_;

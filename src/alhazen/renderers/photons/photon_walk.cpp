@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint64_t kAtEach = 4;
 /// Dimension of the time of a photon.
 constexpr std::uint64_t kTimeOfPhoton = std::uint64_t{1} << 31;
+/// Dimension of the kind of the first segment.
+constexpr std::uint64_t kFirstSegment = kTimeOfPhoton + 1;
 
 std::array<float, 3> floats(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
@@ -82,6 +84,13 @@ bool PhotonWalk::survives_roulette(PathEnd& path, double begun, const PathNumber
     return true;
 }
 
+FirstSegment PhotonWalk::choose_first(PathEnd& path, const PathNumbers& numbers) const {
+    if (caustics_only_) return FirstSegment::Hit;
+    path.as_connection = numbers.at(kFirstSegment) < 0.5;
+    path.throughput = 2.0 * path.throughput;
+    return path.as_connection ? FirstSegment::Connected : FirstSegment::Hit;
+}
+
 bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     const PathNumbers numbers{shot_.seed, number, 0};
     const LightRay light = leave_light(number);
@@ -99,7 +108,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     path.throughput = start.throughput;
     path.time = time;
     path.media = start.media;
-    const double begun = start.throughput.max();
+    FirstSegment first_segment = FirstSegment::Any;
+    if (start.of_either) first_segment = choose_first(path, numbers);
+    const double begun = path.throughput.max();
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
@@ -107,7 +118,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) return true;
+        const bool by_density = scattered || first_segment != FirstSegment::Hit;
         if (meets == PathMeets::Volume) {
+            if (!by_density) return true;
             if (!scattered) fall = falloff(light, next_.volume().point, path.travelled);
             store_in_volume(kind, fall * next_.volume().arrived, waves, stored);
             if (caustics_only_) return true;
@@ -133,14 +146,16 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         }
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         const RayMask seen_by = next_.seen_by();
-        if (scatter_.has_density() && (seen_by & kRaysOfPaths) != 0) {
+        if (by_density && scatter_.has_density() && (seen_by & kRaysOfPaths) != 0) {
             store(kind, fall * path.throughput, waves, stored);
         }
         const auto drawn =
             scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
                             Transport::Importance);
         if (!drawn || drawn->weight.is_black()) return true;
+        const bool by_singular = scattered || first_segment != FirstSegment::Connected;
         if (path.passed && (drawn->straight || drawn->singular)) return true;
+        if (!drawn->straight && !(drawn->singular ? by_singular : by_density)) return true;
         const RayKind kind_of_next = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
         if (!drawn->straight && (seen_by & mask_of(kind_of_next)) == 0) return true;
         if (!drawn->straight) {

@@ -50,6 +50,8 @@ class PhotonWalk {
 
   private:
     [[nodiscard]] LightRay leave_light(std::uint64_t number) const;
+    /// The kind of the first segment of a photon whose light is found by either.
+    [[nodiscard]] FirstSegment choose_first(PathEnd& path, const PathNumbers& numbers) const;
     /// For lights at a place: ratio of the light's falloff to that of its rays.
     [[nodiscard]] Spectrum falloff(const LightRay& light, const Vec3& point, double distance) const;
     void store(PhotonKind kind, const Spectrum& power, const Wavelengths& waves,

@@ -43,6 +43,7 @@ LightPathWalk::LightPathWalk(const LightPathNumbers& numbers, const Illumination
                              TraversalStats* stats)
     : job_(numbers.job()),
       lights_(lights),
+      weights_(job_.scene),
       shot_(shot),
       random_(job_),
       starts_(job_.scene),
@@ -57,8 +58,9 @@ SideSums LightPathWalk::begin(const LightRay& light, double& facing) const {
                  : 1.0;
     const double joined = facing * lights_.density(first.lit(), place, to_light, first.distance);
     facing *= first.backward;
+    const bool only_joined = weights_.shadow_rays_alone() && joined > 0.0 && !first.singular;
     return SideSums::at_light(place.infinite ? light.direction_density : light.place_density,
-                              joined, place.is_hit, first.density);
+                              joined, place.is_hit && !only_joined, first.density);
 }
 
 void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facing,

@@ -17,6 +17,7 @@
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/photons/photon.h"
 #include "alhazen/renderers/photons/photon_grid.h"
@@ -78,6 +79,7 @@ class LightPathWalk {
 
     const RenderJob& job_;
     const Illumination& lights_;
+    DirectLightWeights weights_;
     LightPathShot shot_;
     PathRandomness random_;
     LightStarts starts_;
