@@ -124,7 +124,8 @@ TEST(RayRecords, HaveTheHitsOfSingleRaysInColumns) {
 TEST(RayRecords, VisitTheRootAlone) {
     const PrimitiveTable table = random_triangles(700, 1, 0.1, 83);
     std::vector<Ray> rays = rays_of_all_kinds(67);
-    for (Ray& ray : rays) ray = {{9, ray.direction.y, 9}, {0, 1, 0}};
+    // Near enough to be prepared in lanes.
+    for (Ray& ray : rays) ray = {{2, ray.direction.y, 2}, {0, 1, 0}};
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
         const WideBvhAggregate tested(table);
