@@ -43,8 +43,13 @@ struct Answer {
     std::vector<Hit> all, crossings;
 };
 
+/// The nearest hit is asked for with a record that holds another one: every query sets all of it.
 inline Answer ask(const Aggregate& aggregate, const Ray& ray, RayMask mask = kAllRays) {
     Answer answer;
+    answer.closest.t = answer.closest.u = answer.closest.v = -1;
+    answer.closest.part = 3;
+    answer.closest.primitive = PrimitiveId{4};
+    answer.closest.path.push_back(PrimitiveId{5});
     const RayQuery query{nullptr, mask};
     answer.found = aggregate.closest(ray, answer.closest, query);
     answer.occluded = aggregate.occluded(ray, query);
