@@ -162,7 +162,11 @@ PlaneFrame frame_of(const SectionPlane& plane) {
     const double size = length(plane.normal / largest);
     const Vec3 n = plane.normal / largest / size;
     const Vec3 right = std::hypot(n.x, n.y) > 1e-9 ? normalize(cross({0, 0, 1}, n)) : Vec3{1, 0, 0};
-    return {(plane.offset / largest / size) * n, right, cross(n, right), n};
+    const double distance = plane.offset / largest / size;
+    if (!std::isfinite(distance)) {
+        throw Error(ErrorKind::Usage, "the plane is too far away for its distance to be a number");
+    }
+    return {distance * n, right, cross(n, right), n};
 }
 
 SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
@@ -208,8 +212,7 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
     }
     LineRow row(solid, frame, origin, best, mix64(options.seed) + 5);
     row.grow_to(kFirstLinesInPlane);
-    const double slack =
-        kRounding * (solid.magnitude() + std::abs(plane.offset) / length(plane.normal));
+    const double slack = kRounding * (solid.magnitude() + length(frame.origin));
     double length_of_rows = 0;  // of the parts along the lines
     for (const Interval& range : ranges_of(solid, frame, origin, best)) {
         length_of_rows += range.width();

@@ -56,6 +56,7 @@ TEST(Section, ThePlaneIsThatOfItsNormalOfAnyLength) {
         EXPECT_NEAR(length(frame.origin - Vec3{0, 1.2, -1.6}), 0, 1e-15) << size;
     }
     EXPECT_THROW((void)frame_of({{0, 0, 0}, 1}), Error);
+    EXPECT_THROW((void)frame_of({{0, 0, 1e-320}, 0.5}), Error);
     EXPECT_THROW((void)frame_of({{0, 0, std::numeric_limits<double>::infinity()}, 1}), Error);
 }
 

@@ -71,6 +71,17 @@ TEST(SolidMeasures, CroftonsCountIsNoFinerThanItsLines) {
     EXPECT_LE(missed, 7);  // binomial, 60 of 5 %: 1 in 80 has more than 7
 }
 
+TEST(SolidMeasures, ASectionDoesNotDependOnTheLengthOfTheNormal) {
+    const LoneScene scene(known_solids()[0]);
+    const SectionArea one = section_area(scene.solid, {{1, 1, 0}, 0.1});
+    EXPECT_GT(one.area.value, 0.1);
+    for (const double size : {0x1p-1000, 0x1p-600, 0x1p600}) {
+        const SectionArea other = section_area(scene.solid, {{size, size, 0}, 0.1 * size});
+        EXPECT_EQ(other.area.value, one.area.value) << size;
+        EXPECT_EQ(other.area.half_width, one.area.half_width) << size;
+    }
+}
+
 TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
     const LoneScene scene(known_solids()[1]);
     const SolidMeasures m = measure(scene.solid);
