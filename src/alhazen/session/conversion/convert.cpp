@@ -244,53 +244,35 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
 }  // namespace
 
 std::vector<std::string> losses_of(const ConvertReport& report) {
-    const auto counted = [](std::uint64_t n, const char* what, const char* several = nullptr) {
-        if (n != 1 && several != nullptr) return fmt::format("{} {}", n, several);
-        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
     std::vector<std::string> lines;
-    if (report.masked_parts > 0) {
-        lines.push_back(
-            fmt::format("mesh files do not keep the visibility masks of {} (.alhazen "
-                        "keeps 'visible_to')",
-                        counted(report.masked_parts, "part")));
-    }
-    if (report.moving_parts > 0) {
-        lines.push_back(
-            fmt::format("mesh files do not keep the motion of {}, written as at time "
-                        "{:g}, when the shutter opens (.alhazen keeps it)",
-                        counted(report.moving_parts, "part"), report.moment));
-    }
-    if (report.lost_tangents > 0) {
-        lines.push_back(
-            fmt::format("a PLY has tangents if all meshes have them: those of {} are left out "
-                        "(.alhazen keeps them)",
-                        counted(report.lost_tangents, "mesh", "meshes")));
-    }
-    if (report.lost_mapped_tangents > 0) {
-        lines.push_back(
-            fmt::format("an OBJ has no tangents, which normal maps use: those of {} are left out "
-                        "(.alhazen keeps them)",
-                        counted(report.lost_mapped_tangents, "mesh", "meshes")));
-    }
-    if (report.lost_alpha > 0) {
-        lines.push_back(
-            fmt::format("vertices of an OBJ have no alpha: that of {} is left out (.alhazen and "
-                        ".ply keep it)",
-                        counted(report.lost_alpha, "mesh", "meshes")));
-    }
-    if (report.clamped_colors > 0) {
-        lines.push_back(
-            fmt::format("vertex colours of an OBJ are from 0 to 1: those of {} are clamped "
-                        "(.alhazen and .ply keep them)",
-                        counted(report.clamped_colors, "mesh", "meshes")));
-    }
-    if (report.mixed_faces > 0) {
-        lines.push_back(
-            fmt::format("a face of an OBJ has one material: {} between vertices of "
-                        "different materials got that of the first vertex",
-                        counted(report.mixed_faces, "face")));
-    }
+    // `{}` of the sentence is the number of what is lost.
+    const auto lose = [&](std::uint64_t n, const char* one, const char* several,
+                          const char* sentence) {
+        if (n == 0) return;
+        const std::string count = fmt::format("{} {}", n, n == 1 ? one : several);
+        lines.push_back(fmt::format(fmt::runtime(sentence), count));
+    };
+    lose(report.masked_parts, "part", "parts",
+         "mesh files do not keep the visibility masks of {} (.alhazen keeps 'visible_to')");
+    const std::string moment = fmt::format(
+        "mesh files do not keep the motion of {{}}, written as at time {:g}, when the shutter "
+        "opens (.alhazen keeps it)",
+        report.moment);
+    lose(report.moving_parts, "part", "parts", moment.c_str());
+    lose(report.lost_tangents, "mesh", "meshes",
+         "a PLY has tangents if all meshes have them: those of {} are left out (.alhazen keeps "
+         "them)");
+    lose(report.lost_mapped_tangents, "mesh", "meshes",
+         "an OBJ has no tangents, which normal maps use: those of {} are left out (.alhazen keeps "
+         "them)");
+    lose(report.lost_alpha, "mesh", "meshes",
+         "vertices of an OBJ have no alpha: that of {} is left out (.alhazen and .ply keep it)");
+    lose(report.clamped_colors, "mesh", "meshes",
+         "vertex colours of an OBJ are from 0 to 1: those of {} are clamped (.alhazen and .ply "
+         "keep them)");
+    lose(report.mixed_faces, "face", "faces",
+         "a face of an OBJ has one material: {} between vertices of different materials got that "
+         "of the first vertex");
     for (const std::string& what : report.lost) {
         lines.push_back("the MTL file cannot express " + what);
     }
