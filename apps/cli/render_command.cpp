@@ -146,9 +146,13 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
     return outputs;
 }
 
+/// Pictures that took less, in seconds, are not synced to the disk, which takes some 10 ms.
+constexpr double kSyncedFrom = 1;
+
 PictureOptions picture_options(const RenderArguments& args, int samples_per_pixel,
-                               const RenderResult& result) {
+                               const RenderResult& result, double seconds) {
     PictureOptions options;
+    options.sync = seconds < kSyncedFrom ? Sync::Later : Sync::ToDisk;
     if (!args.encoding.empty()) options.encoding = parse_encoding(args.encoding);
     options.tone = tone_mapping(args);
     options.bits = args.bits;
@@ -161,8 +165,8 @@ PictureOptions picture_options(const RenderArguments& args, int samples_per_pixe
 }
 
 void write_pictures(const RenderArguments& args, const RenderOptions& options,
-                    const LoadedScene& loaded, const RenderResult& result) {
-    PictureOptions picture = picture_options(args, options.samples_per_pixel, result);
+                    const LoadedScene& loaded, const RenderResult& result, double seconds) {
+    PictureOptions picture = picture_options(args, options.samples_per_pixel, result, seconds);
     const ImageMetadata common = picture.metadata;
     if (!options.aovs.empty() && holds_layers(args.output)) {
         picture.layers = &result.layers;
@@ -205,6 +209,7 @@ void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
 }
 
 int run(const RenderArguments& args) {
+    const Stopwatch run_time;
     // Checks the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
@@ -262,7 +267,7 @@ int run(const RenderArguments& args) {
         return kStopped;
     }
     const Stopwatch write_time;
-    write_pictures(args, options, loaded, result);
+    write_pictures(args, options, loaded, result, run_time.seconds());
     const double write_seconds = write_time.seconds();
     if (!args.stats.empty()) {
         write_report(

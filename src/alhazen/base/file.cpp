@@ -159,12 +159,12 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
     return bytes;
 }
 
-void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-    write_file_atomically(path, std::span(&bytes, 1));
+void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes, Sync sync) {
+    write_file_atomically(path, std::span(&bytes, 1), sync);
 }
 
-void write_file_atomically(const fs::path& path,
-                           std::span<const std::span<const std::byte>> pieces) {
+void write_file_atomically(const fs::path& path, std::span<const std::span<const std::byte>> pieces,
+                           Sync sync) {
     check_path(path);
     const fs::path target = target_of(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -180,13 +180,13 @@ void write_file_atomically(const fs::path& path,
     // Keeps the permissions of the old file where that is allowed.
     if (exists) (void)!::fchmod(fd.get(), old.st_mode & 07777);
     for (const std::span<const std::byte> bytes : pieces) write_all(fd.get(), bytes, path);
-    if (!synced(fd.get())) fail(path, "cannot write the file", errno);
+    if (sync == Sync::ToDisk && !synced(fd.get())) fail(path, "cannot write the file", errno);
     if (fd.close() != 0) fail(path, "cannot write the file", errno);
     if (::rename(temporary.path().c_str(), target.c_str()) != 0) {
         fail(path, "cannot replace the file", errno);
     }
     temporary.keep();
-    sync_folder(folder);
+    if (sync == Sync::ToDisk) sync_folder(folder);
 }
 
 void write_file_atomically(const fs::path& path, const std::string& text) {

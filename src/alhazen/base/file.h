@@ -2,8 +2,8 @@
 /// Safe reading and writing of whole files.
 ///
 /// Reads accept regular files only (no FIFO or device can hang or flood a loader) and stop at a
-/// byte limit. Writes go to a temporary name in the target's folder, are synced and renamed: a
-/// killed run leaves the old file or the new one, never half of it.
+/// byte limit. Writes go to a temporary name in the target's folder and are renamed: a killed run
+/// leaves the old file or the new one, never half of it.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,13 +21,21 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 [[nodiscard]] std::string read_file(const std::filesystem::path& path,
                                     std::uint64_t max_bytes = kMaxFileBytes);
 
-/// Replaces `path` by `bytes` in one step (temporary file, fsync, rename, fsync of the folder).
-/// Throws Error (File) and leaves the old file unchanged when anything fails.
-void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Whether a written file waits for the disk.
+enum class Sync {
+    ToDisk,  ///< fsync of the file and its folder: holds after a loss of power, too
+    Later    ///< when the system writes it; for what is made again as fast as it is synced
+};
+
+/// Replaces `path` by `bytes` in one step (temporary file, rename). Throws Error (File) and leaves
+/// the old file unchanged when anything fails.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                           Sync sync = Sync::ToDisk);
 
 /// Writes the bytes of several pieces, in this order.
 void write_file_atomically(const std::filesystem::path& path,
-                           std::span<const std::span<const std::byte>> pieces);
+                           std::span<const std::span<const std::byte>> pieces,
+                           Sync sync = Sync::ToDisk);
 /// Writes a text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 

@@ -6,6 +6,8 @@
 
 #include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/codecs/exr_layers.h"
+#include "alhazen/imaging/codecs/jpeg.h"
+#include "alhazen/imaging/codecs/png.h"
 
 namespace alhazen {
 
@@ -48,6 +50,34 @@ CodeRows picture_rows(const Film& film, const FilmConventions& conventions,
     return rows;
 }
 
+/// The bytes of the file with this suffix.
+std::vector<std::byte> picture_bytes(const std::string& suffix, const Film& film,
+                                     const FilmConventions& conventions,
+                                     const PictureOptions& options) {
+    if (suffix == ".png") {
+        return encode_png(picture_rows(film, conventions, options), options.metadata);
+    }
+    if (suffix == ".jpg" || suffix == ".jpeg") {
+        PictureOptions eight = options;
+        eight.bits = 8;
+        return encode_jpeg(encoded_picture(film, conventions, eight),
+                           ImageWriteOptions{}.jpeg_quality);
+    }
+    if (suffix == ".exr" && options.layers != nullptr) {
+        return encode_exr_layers(film, *options.layers,
+                                 {.full_float = options.full_float, .metadata = options.metadata});
+    }
+    const PixelBox& crop = film.crop();
+    ImageWriteOptions write;
+    write.full_float = options.full_float;
+    write.metadata = options.metadata;
+    write.full_width = film.frame_width();
+    write.full_height = film.frame_height();
+    write.crop_x0 = crop.x0;
+    write.crop_y0 = crop.y0;
+    return encode_image(suffix.substr(1), film.to_image(), write);
+}
+
 }  // namespace
 
 EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
@@ -65,27 +95,8 @@ EncodedImage encoded_picture(const Film& film, const FilmConventions& convention
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options) {
     check_image_suffix(path);
-    const std::string suffix = lower_suffix(path);
-    const PixelBox& crop = film.crop();
-    if (suffix == ".png") {
-        write_png(path, picture_rows(film, conventions, options), options.metadata);
-    } else if (suffix == ".jpg" || suffix == ".jpeg") {
-        PictureOptions eight = options;
-        eight.bits = 8;
-        write_jpeg(path, encoded_picture(film, conventions, eight));
-    } else if (options.layers != nullptr && holds_layers(path)) {
-        write_exr_layers(path, film, *options.layers,
-                         {.full_float = options.full_float, .metadata = options.metadata});
-    } else {
-        ImageWriteOptions write;
-        write.full_float = options.full_float;
-        write.metadata = options.metadata;
-        write.full_width = film.frame_width();
-        write.full_height = film.frame_height();
-        write.crop_x0 = crop.x0;
-        write.crop_y0 = crop.y0;
-        write_image(path, film.to_image(), write);
-    }
+    write_file_atomically(path, picture_bytes(lower_suffix(path), film, conventions, options),
+                          options.sync);
 }
 
 }  // namespace alhazen

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "alhazen/base/file.h"
 #include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/imaging/film/film_layers.h"
@@ -19,6 +20,7 @@ struct PictureOptions {
     ImageMetadata metadata;
     const FilmLayers* layers = nullptr;  ///< written with the colours to files with suffix .exr
     ToneMapping tone;                    ///< for PNG and JPEG; the default encoding is then sRGB
+    Sync sync = Sync::ToDisk;
 };
 
 /// True if the format holds layers (EXR only).
@@ -28,8 +30,8 @@ struct PictureOptions {
 [[nodiscard]] EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
                                            const PictureOptions& options);
 
-/// Writes the film. Integer formats are encoded from the film's doubles: truncation is exact.
-/// Throws Error.
+/// Writes the film in one step. Integer formats are encoded from the film's doubles: truncation is
+/// exact. Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options);
 

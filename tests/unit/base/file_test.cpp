@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,8 @@ TEST_F(File, ReadsBackEveryByteThatWasWritten) {
     EXPECT_EQ(read_file(folder_ / "a"), text);
     write_file_atomically(folder_ / "a", std::string());
     EXPECT_EQ(read_file(folder_ / "a"), "");
+    write_file_atomically(folder_ / "a", std::as_bytes(std::span(text)), Sync::Later);
+    EXPECT_EQ(read_file(folder_ / "a"), text);
     EXPECT_EQ(file_count(), 1u);
 }
 

@@ -26,8 +26,4 @@ struct ExrLayersOptions {
 [[nodiscard]] std::vector<std::byte> encode_exr_layers(const Film& film, const FilmLayers& layers,
                                                        const ExrLayersOptions& options);
 
-/// Writes the bytes to a file, which is replaced in one step.
-void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
-                      const ExrLayersOptions& options);
-
 }  // namespace alhazen

@@ -195,18 +195,4 @@ void write_png(const std::filesystem::path& path, const EncodedImage& image,
     write_file_atomically(path, encode_png(image, metadata));
 }
 
-void write_png(const std::filesystem::path& path, const CodeRows& rows,
-               const ImageMetadata& metadata) {
-    write_file_atomically(path, encode_png(rows, metadata));
-}
-
-void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
-                      const ExrLayersOptions& options) {
-    write_file_atomically(path, encode_exr_layers(film, layers, options));
-}
-
-void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality) {
-    write_file_atomically(path, encode_jpeg(image, quality));
-}
-
 }  // namespace alhazen

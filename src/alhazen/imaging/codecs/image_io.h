@@ -91,10 +91,4 @@ void write_image(const std::filesystem::path& path, const Image& image,
 void write_png(const std::filesystem::path& path, const EncodedImage& image,
                const ImageMetadata& metadata = {});
 
-void write_png(const std::filesystem::path& path, const CodeRows& rows,
-               const ImageMetadata& metadata = {});
-
-/// Writes 8-bit codes as a JPEG, in one step; alpha is dropped. Throws as write_png.
-void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality = 95);
-
 }  // namespace alhazen
