@@ -81,7 +81,12 @@ void BrlcadBuilder::build(std::span<const std::string> names) {
     const bool empty = root.parts.empty();
     scene_.root = add_object(std::move(root));
     tell_left_out();
-    if (empty && database_.faults + cyclic_.size() > 0) refuse();
+    if (empty && database_.faults + cyclic_.size() + left_out_ > 0) refuse();
+}
+
+void BrlcadBuilder::leave_out(const std::string& name, const FileLocation& where) {
+    ++left_out_;
+    diagnostics_.warning(where, "'" + name + "' is left out: " + unread_);
 }
 
 void BrlcadBuilder::refuse() {
@@ -218,10 +223,7 @@ std::optional<BrlcadBuilder::PlacedRegion> BrlcadBuilder::region(const BrlcadObj
             materials_.of(own, region_id, pattern_unit(object), object.place);
         const Operand whole = this->object(object, material);
         if (whole.outcome == Outcome::Present) made = PlacedRegion{whole.part, material};
-        if (whole.outcome == Outcome::Unread) {
-            diagnostics_.warning(database_.at(object.place),
-                                 "'" + object.name + "' is left out: " + unread_);
-        }
+        if (whole.outcome == Outcome::Unread) leave_out(object.name, database_.at(object.place));
     }
     return regions_[key] = made;
 }
@@ -308,9 +310,7 @@ void BrlcadBuilder::cut_regions(const BrlcadTree& tree, std::span<const std::uin
         if (result.outcome == Outcome::Present) {
             result = combined(combine, std::move(parts), {where.line, where.column});
         }
-        if (result.outcome == Outcome::Unread) {
-            diagnostics_.warning(where, "'" + name + "' is left out: " + unread_);
-        }
+        if (result.outcome == Outcome::Unread) leave_out(name, where);
         if (result.outcome != Outcome::Present) continue;
         result.part.name = name;
         result.part.location = where;

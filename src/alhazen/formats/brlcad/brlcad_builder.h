@@ -94,6 +94,8 @@ class BrlcadBuilder {
     void check_room(std::size_t parts, const BrlcadPlace& place);
     [[nodiscard]] std::vector<std::string> top_level() const;
     void tell_left_out();
+    /// Tells of a region that `unread_` keeps away.
+    void leave_out(const std::string& name, const FileLocation& where);
     void refuse();  ///< turns all warnings into errors
 
     using StateKey = decltype(std::declval<BrlcadState>().key());
@@ -118,7 +120,7 @@ class BrlcadBuilder {
     std::string unread_;  ///< why the last operand is Unread
     std::map<const BrlcadObject*, std::string> unread_of_;
     int depth_ = 0;
-    std::uint64_t air_regions_ = 0;
+    std::uint64_t air_regions_ = 0, left_out_ = 0;
 };
 
 }  // namespace alhazen

@@ -187,11 +187,12 @@ Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const R
 
 Rgb BrlcadMaterials::color_of(const BrlcadState& state, int region_id) const {
     if (state.color) return *state.color;
-    for (const BrlcadRegionColor& entry : database_.region_colors) {
-        if (region_id != 0 && entry.first <= region_id && region_id <= entry.last) {
-            return entry.color;
-        }
-    }
+    // A later entry replaces what it covers of earlier ones.
+    const auto& table = database_.region_colors;
+    const auto entry = std::find_if(table.rbegin(), table.rend(), [&](const auto& one) {
+        return one.first <= region_id && region_id <= one.last;
+    });
+    if (entry != table.rend()) return entry->color;
     return {1, 1, 1};
 }
 

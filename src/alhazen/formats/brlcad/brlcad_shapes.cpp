@@ -44,6 +44,11 @@ OrientedPlane plane_of(const BrlcadHalfSpace& half) {
 struct Maker {
     BrlcadPieces made;
 
+    void doubt_axis(const Vec3& a, const Vec3& height) {
+        if (!is_oblique(a, height)) return;
+        made.doubt = "A is not perpendicular to H; it is read as an oblique solid";
+    }
+
     void operator()(const BrlcadUnsupported& given) { made.refused = given.reason; }
     void operator()(const BrlcadArb8& arb) { add(made, hexahedron(arb.corners)); }
     void operator()(const BrlcadEllipsoid& given) {
@@ -66,6 +71,10 @@ struct Maker {
         tgc.axis_b = given.b;
         tgc.axis_c = given.c;
         tgc.axis_d = given.d;
+        if (is_oblique(given.a, given.b)) {
+            made.doubt =
+                "its semi-axes A and B are not perpendicular; it is read as a sheared cone";
+        }
         if (is_turned(given.a, given.c) || is_turned(given.b, given.d)) {
             made.doubt =
                 "its upper semi-axes C and D are not parallel to A and B; of them only the lengths "
@@ -132,12 +141,16 @@ struct Maker {
         }
         add_quadric(brlcad_quadric(given));
     }
-    void operator()(const BrlcadConicDome& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadConicDome& given) {
+        doubt_axis(given.a, given.height);
+        add_quadric(brlcad_quadric(given));
+    }
     void operator()(const BrlcadHyperboloid& given) {
         if (!(given.neck > 0.0 && given.neck < 1.0)) {
             made.refused = "is not a solid: its neck ratio must be between 0 and 1";
             return;
         }
+        doubt_axis(given.a, given.height);
         add_quadric(brlcad_quadric(given));
     }
     void operator()(const BrlcadSuperellipsoid& given) {

@@ -137,15 +137,19 @@ void BrlcadV4Reader::read_record(bool lost) {
     if (kind == "s") return read_string_solid();
     if (kind == "N") return read_nmg();
     if (kind == "w") return read_pipe();
-    if (kind == "D") return read_spline();
+    if (kind == "b") return read_unsupported("spline");
+    if (kind == "D") return skip_spline_surface();
     if (kind == "c") return read_unsupported("cline");
+    if (kind == "e") return read_unsupported("extrude");
+    if (kind == "d") return read_sketch();
+    if (kind.starts_with("#")) return;
     // The rest of an unreadable record is not reported as a second fault.
     record_failed_ = true;
     if (lost) return;
     database_.fault(database_.at(record_),
                     shown +
-                        " is not a record type; expected I, S, C, M, A, P, t, p, n, s, N, w, D, c "
-                        "or m",
+                        " is not a record type; expected I, S, C, M, A, P, t, p, n, s, N, w, b, "
+                        "D, c, e, d or m",
                     diagnostics_);
 }
 

@@ -40,7 +40,8 @@ class BrlcadV4Reader {
     void read_string_solid();
     void read_nmg();
     void read_pipe();
-    void read_spline();
+    void skip_spline_surface();
+    void read_sketch();
 
     void finish_combination();
     void add_solid(std::string name, BrlcadSolid solid, const BrlcadPlace& place);

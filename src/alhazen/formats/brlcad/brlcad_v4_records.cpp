@@ -135,7 +135,7 @@ void BrlcadV4Reader::read_bot() {
         if (!name(label) || !numbers(p)) return;
         bot.mesh->positions.push_back(vec(p.data()));
     }
-    if (!read_bot_faces(bot.plate, static_cast<std::size_t>(faces), *bot.mesh)) return;
+    if (!read_bot_faces(mode == 3, static_cast<std::size_t>(faces), *bot.mesh)) return;
     if (orientation == 3) {
         for (auto& triangle : bot.mesh->triangles) std::swap(triangle[1], triangle[2]);
     }
@@ -210,21 +210,37 @@ void BrlcadV4Reader::read_pipe() {
     add_solid(std::move(solid_name), {"pipe", BrlcadUnsupported{}}, record_);
 }
 
-void BrlcadV4Reader::read_spline() {
-    std::string type;
-    if (!name(type)) return;
-    read_unsupported("spline");
-    // Surfaces: lines of numbers, and lines that begin with d.
+void BrlcadV4Reader::skip_spline_surface() {
+    // Knots and control points, a number a line.
     for (;;) {
         TextCursor ahead = cursor_;
         ahead.skip_line();
         if (!ahead.skip_to_word()) return;
         const char begin = ahead.peek();
-        const bool is_number = begin == '-' || begin == '.' || (begin >= '0' && begin <= '9');
-        if (!is_number && ahead.word() != "d") return;
+        if (begin != '-' && begin != '.' && !(begin >= '0' && begin <= '9')) return;
         ahead.rest_of_line();
         cursor_ = ahead;
     }
+}
+
+void BrlcadV4Reader::read_sketch() {
+    std::string solid_name;
+    std::array<double, 9> placement{};
+    std::int64_t vertices = 0, segments = 0;
+    if (!own_name(solid_name) || !numbers(placement) || !integer(vertices, 0, kMost) ||
+        !integer(segments, 0, kMost)) {
+        return;
+    }
+    // A line of all vertices, and one of each segment.
+    for (std::int64_t i = 0; i < 1 + segments; ++i) {
+        if (cursor_.bytes_left() == 0) {
+            fail("the file ends within '" + solid_name + "'");
+            return;
+        }
+        cursor_.skip_line();
+        cursor_.rest_of_line();
+    }
+    add_solid(std::move(solid_name), {"sketch", BrlcadUnsupported{}}, record_);
 }
 
 }  // namespace alhazen

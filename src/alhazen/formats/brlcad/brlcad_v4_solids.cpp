@@ -36,8 +36,13 @@ BrlcadSolid brlcad_v4_solid(std::int64_t type, const std::array<double, 24>& s) 
     std::array<Vec3, 8> v;
     for (std::size_t i = 0; i < 8; ++i) v[i] = {s[3 * i], s[3 * i + 1], s[3 * i + 2]};
     switch (type) {
-        case kTorus:
-            return {"tor", BrlcadTorus{v[0], v[1], length(v[2]), length(v[1])}};
+        case kTorus: {
+            // A horn torus, in float: the tube's radius may exceed the other by rounding.
+            constexpr double kRounding = 1e-6;
+            const double major = length(v[2]), minor = length(v[1]);
+            const bool rounded = minor > major && minor <= (1.0 + kRounding) * major;
+            return {"tor", BrlcadTorus{v[0], v[1], major, rounded ? major : minor}};
+        }
         case kTgc:
             return {"tgc", BrlcadTgc{v[0], v[1], v[2], v[3], v[4], v[5]}};
         case kEllipsoid:

@@ -1,7 +1,9 @@
 #include "alhazen/formats/brlcad/brlcad_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "alhazen/formats/brlcad/brlcad_database.h"
 #include "alhazen/formats/text/text_cursor.h"
@@ -78,37 +80,74 @@ std::vector<CameraDescription> brlcad_cameras(const Box3& box, const FileLocatio
 
 namespace {
 
+/// A script of `rt`, and the command with which a shell script calls `rt` for it.
+struct ViewScript {
+    std::string_view command, text;
+    std::int64_t line = 1;  ///< of the first line of `text`
+};
+
+/// The here-documents of a shell script (`saveview` adds one for each view), or the text itself.
+std::vector<ViewScript> view_scripts(std::string_view text) {
+    std::vector<ViewScript> scripts;
+    std::int64_t line = 1;
+    for (;;) {
+        const std::size_t document = text.find("<<");
+        if (document == std::string_view::npos) break;
+        const std::size_t end = std::min(text.find('\n', document), text.size() - 1);
+        std::string_view mark = text.substr(document + 2, end - document - 1);
+        while (!mark.empty() && TextCursor::is_space(mark.back())) mark.remove_suffix(1);
+        while (!mark.empty() && TextCursor::is_space(mark.front())) mark.remove_prefix(1);
+        line += std::count(text.begin(), text.begin() + std::ptrdiff_t(end + 1), '\n');
+        const std::string_view command = text.substr(0, document);
+        text.remove_prefix(end + 1);
+        const std::size_t last =
+            mark.empty() ? std::string_view::npos : text.find("\n" + std::string(mark));
+        const std::size_t size = last == std::string_view::npos ? text.size() : last + 1;
+        scripts.push_back({command, text.substr(0, size), line});
+        line += std::count(text.begin(), text.begin() + std::ptrdiff_t(size), '\n');
+        text.remove_prefix(size);
+    }
+    if (scripts.empty()) scripts.push_back({{}, text, 1});
+    return scripts;
+}
+
+/// The numbers of an option `-xN`, `-x N`, `-x N/N/N` of a command.
+bool option_numbers(std::string_view command, char letter, std::span<double> values) {
+    std::size_t at = command.find(std::string(" -") + letter);
+    if (at == std::string_view::npos) return false;
+    std::string text(command.substr(at + 3, 100));
+    for (char& c : text) c = c == '/' || c == ',' || c == '"' || c == '\'' || c == '\\' ? ' ' : c;
+    TextCursor cursor(text);
+    return std::all_of(values.begin(), values.end(), [&](double& value) {
+        return cursor.skip_to_word() && cursor.number(value);
+    });
+}
+
 /// Reads the statements of a script, separated by semicolons.
 class ViewReader {
   public:
-    ViewReader(std::string_view text, const std::string& file, const Box3& box,
-               Diagnostics& diagnostics)
-        : file_(file), fit_(box), diagnostics_(diagnostics) {
-        // A shell script contains the input for `rt` in a here-document.
-        std::int64_t line = 1;
-        const std::size_t document = text.find("<<");
-        if (document != std::string_view::npos) {
-            std::size_t end = text.find('\n', document);
-            if (end == std::string_view::npos) end = text.size();
-            std::string_view mark = text.substr(document + 2, end - document - 2);
-            while (!mark.empty() && TextCursor::is_space(mark.back())) mark.remove_suffix(1);
-            for (const char c : text.substr(0, std::min(end + 1, text.size()))) line += c == '\n';
-            text.remove_prefix(std::min(end + 1, text.size()));
-            const std::size_t last = text.find("\n" + std::string(mark));
-            if (!mark.empty() && last != std::string_view::npos) text = text.substr(0, last + 1);
-        }
-        text_ = text;
-        line_ = line;
-    }
+    ViewReader(const std::string& file, const Box3& box, Diagnostics& diagnostics)
+        : file_(file), fit_(box), diagnostics_(diagnostics) {}
 
-    std::vector<CameraDescription> read() {
-        while (!text_.empty()) {
-            const std::size_t end = std::min(text_.find(';'), text_.size());
-            statement(text_.substr(0, end));
-            for (const char c : text_.substr(0, end)) line_ += c == '\n';
-            text_.remove_prefix(std::min(end + 1, text_.size()));
+    /// Adds the cameras of a script. Each run of `rt` begins with its own defaults.
+    void read(const ViewScript& script) {
+        state_ = State{};
+        double angle = 0.0;
+        if (option_numbers(script.command, 'p', {&angle, 1}) && angle >= 0.0 && angle < 180.0) {
+            state_.perspective_deg = angle;
+        }
+        std::string_view text = script.text;
+        std::int64_t line = script.line;
+        while (!text.empty()) {
+            const std::size_t end = std::min(text.find(';'), text.size());
+            statement(text.substr(0, end), line);
+            line += std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '\n');
+            text.remove_prefix(std::min(end + 1, text.size()));
         }
         if (changed_) finish_frame();
+    }
+
+    std::vector<CameraDescription> cameras() {
         if (cameras_.empty()) {
             diagnostics_.error({file_, 0, 0},
                                "no view in the script; expected viewsize, eye_pt, orientation, "
@@ -118,29 +157,29 @@ class ViewReader {
     }
 
   private:
-    void statement(std::string_view text) {
-        TextCursor cursor(text, line_);
+    void statement(std::string_view text, std::int64_t line) {
+        TextCursor cursor(text, line);
         if (!cursor.skip_to_word("#")) return;
         where_ = cursor.location(file_);
         const std::string_view command = cursor.word();
         std::array<double, 16> v{};
         const auto read = [&](std::size_t count) { return numbers(cursor, {v.data(), count}); };
         if (command == "viewsize") {
-            if (read(1) && positive(v[0])) size_ = v[0];
+            if (read(1) && positive(v[0])) state_.size = v[0];
         } else if (command == "eye_pt") {
-            if (read(3)) eye_ = Vec3{v[0], v[1], v[2]};
+            if (read(3)) state_.eye = Vec3{v[0], v[1], v[2]};
         } else if (command == "orientation") {
             if (read(4)) set_orientation(v[0], v[1], v[2], v[3]);
         } else if (command == "viewrot") {
             if (read(16)) {
-                frame_ = {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}};
+                state_.frame = {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {v[8], v[9], v[10]}};
             }
         } else if (command == "ae") {
-            if (read(2)) frame_ = brlcad_frame(v[0], v[1]);
+            if (read(2)) state_.frame = brlcad_frame(v[0], v[1]);
         } else if (command == "lookat_pt") {
-            if (numbers(cursor, {v.data(), 3})) look_at_ = Vec3{v[0], v[1], v[2]};
+            if (read(3)) look_at({v[0], v[1], v[2]}, cursor);
         } else if (command == "start") {
-            frame_name_ = cursor.skip_to_word() ? std::string(cursor.word()) : "";
+            state_.name = cursor.skip_to_word() ? std::string(cursor.word()) : "";
             return;
         } else if (command == "end") {
             finish_frame();
@@ -184,41 +223,55 @@ class ViewReader {
             diagnostics_.error(where_, "expected set perspective=ANGLE, 0 to 180 degrees");
             return;
         }
-        perspective_deg_ = angle;
+        state_.perspective_deg = angle;
+    }
+
+    /// Turns the view towards `point` from the present eye, `rt`'s mat_lookat: the projection of
+    /// the x axis points to the right. A fourth number other than 0 keeps the z axis upwards by a
+    /// reflection.
+    void look_at(const Vec3& point, TextCursor& cursor) {
+        double flip = 0.0;
+        if (cursor.skip_to_word() && !cursor.number(flip)) {
+            return diagnostics_.error(where_,
+                                      "expected the number yflip, found " + cursor.shown_word());
+        }
+        const Vec3 d = point - state_.eye.value_or(Vec3{});
+        const double least = 1e-10;  // rt's limit for the projection
+        if (!(length(d) > 0.0)) {
+            state_.frame = brlcad_frame(0, 0);  // rt's orientation for this case, from the front
+            return;
+        }
+        const Vec3 to_eye = -normalize(d);
+        const Vec3 right = Vec3{1, 0, 0} - to_eye.x * to_eye;
+        BrlcadFrame& frame = state_.frame;
+        frame.to_eye = to_eye;
+        frame.right = length(right) < least ? Vec3{0, 0, 1} : normalize(right);
+        frame.up = cross(to_eye, frame.right);
+        if (flip != 0.0 && frame.up.z < 0.0) frame.up = -frame.up;
     }
 
     void set_orientation(double x, double y, double z, double w) {
         const double n = x * x + y * y + z * z + w * w;
         if (!(n > 0.0)) return diagnostics_.error(where_, "an orientation must not be zero");
         const double s = 2.0 / n;
-        frame_.right = {1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)};
-        frame_.up = {s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)};
-        frame_.to_eye = {s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)};
+        state_.frame.right = {1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)};
+        state_.frame.up = {s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)};
+        state_.frame.to_eye = {s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)};
     }
 
     void finish_frame() {
         changed_ = false;
-        BrlcadFrame frame = frame_;
-        const double size = size_.value_or(fit_.size);
+        const BrlcadFrame& frame = state_.frame;
+        const double size = state_.size.value_or(fit_.size);
         if (!(size > 0.0)) {
             return diagnostics_.error(where_, "neither the view nor the model has a size");
         }
-        const Vec3 eye = eye_.value_or(fit_.eye(frame.to_eye, size));
-        if (look_at_) {
-            const Vec3 d = eye - *look_at_;
-            if (!(length(d) > 0.0)) {
-                return diagnostics_.error(where_, "lookat_pt is the position of the eye");
-            }
-            const double flat = std::hypot(d.x, d.y);
-            frame = brlcad_frame(flat > 0.0 ? std::atan2(d.y, d.x) / kRadiansPerDegree : 0.0,
-                                 std::atan2(d.z, flat) / kRadiansPerDegree);
-        }
+        const Vec3 eye = state_.eye.value_or(fit_.eye(frame.to_eye, size));
         CameraDescription camera;
-        camera.name = "frame " + (frame_name_.empty() ? std::to_string(cameras_.size())
-                                                      : frame_name_.substr(0, 40));
+        camera.name = unused_name();
         camera.location = where_;
-        if (perspective_deg_ > 0.0) {
-            const double width = 2.0 * std::tan(0.5 * perspective_deg_ * kRadiansPerDegree);
+        if (state_.perspective_deg > 0.0) {
+            const double width = 2.0 * std::tan(0.5 * state_.perspective_deg * kRadiansPerDegree);
             camera.camera =
                 PerspectiveCamera{eye, -frame.to_eye, width * frame.right, width * frame.up};
         } else {
@@ -227,17 +280,29 @@ class ViewReader {
         cameras_.push_back(std::move(camera));
     }
 
-    std::string_view text_;
-    std::int64_t line_ = 1;
+    /// The name of the frame, or its number where it has none or that is taken.
+    [[nodiscard]] std::string unused_name() const {
+        const std::string number = std::to_string(cameras_.size());
+        std::string name = "frame " + (state_.name.empty() ? number : state_.name.substr(0, 40));
+        const auto taken = [&](const CameraDescription& one) { return one.name == name; };
+        while (std::any_of(cameras_.begin(), cameras_.end(), taken)) name += " of view " + number;
+        return name;
+    }
+
+    /// What commands set, for all frames that follow.
+    struct State {
+        BrlcadFrame frame = brlcad_frame(35, 25);
+        std::optional<double> size;
+        std::optional<Vec3> eye;
+        double perspective_deg = 0;
+        std::string name;
+    };
+
     const std::string& file_;
     Fit fit_;
     Diagnostics& diagnostics_;
     FileLocation where_;
-    BrlcadFrame frame_ = brlcad_frame(35, 25);
-    std::optional<double> size_;
-    std::optional<Vec3> eye_, look_at_;
-    double perspective_deg_ = 0;
-    std::string frame_name_;
+    State state_;
     bool changed_ = false;
     std::vector<CameraDescription> cameras_;
 };
@@ -246,21 +311,14 @@ class ViewReader {
 
 std::vector<CameraDescription> read_brlcad_views(std::string_view text, const std::string& file,
                                                  const Box3& box, Diagnostics& diagnostics) {
-    return ViewReader(text, file, box, diagnostics).read();
+    ViewReader reader(file, box, diagnostics);
+    for (const ViewScript& script : view_scripts(text)) reader.read(script);
+    return reader.cameras();
 }
 
 std::optional<Rgb> brlcad_view_background(std::string_view text) {
-    const std::string_view command = text.substr(0, text.find("<<"));
-    if (command.size() == text.size()) return std::nullopt;
-    const std::size_t at = command.find(" -C");
-    if (at == std::string_view::npos) return std::nullopt;
-    std::string values(command.substr(at + 3, 100));
-    for (char& c : values) c = c == '/' || c == ',' || c == '"' || c == '\'' || c == '\\' ? ' ' : c;
-    TextCursor cursor(values);
     std::array<double, 3> c{};
-    for (double& value : c) {
-        if (!cursor.skip_to_word() || !cursor.number(value)) return std::nullopt;
-    }
+    if (!option_numbers(view_scripts(text).front().command, 'C', c)) return std::nullopt;
     return brlcad_color(c[0], c[1], c[2]);
 }
 

@@ -165,7 +165,7 @@ void Lexer::skip_blanks_and_comments() {
         if (is_blank(c)) {
             ++at_;
         } else if (text_.substr(at_, 2) == "//") {
-            at_ = std::min(text_.find('\n', at_), text_.size());
+            at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
         } else if (text_.substr(at_, 2) == "/*") {
             skip_block_comment();
         } else if (c == '/' || !starts_token(c)) {

@@ -17,35 +17,87 @@ FileLocation place(const std::string& file, const YAML::Mark& mark) {
                           : FileLocation{file, mark.line + 1, mark.column + 1};
 }
 
-/// Tracks the nesting of a text line by line before the recursive parser runs. A misread quote or
-/// bracket is harmless: the parser has its own guard.
+/// Tracks the nesting of a text line by line before the recursive parser runs. Brackets in quotes,
+/// comments and the middle of plain scalars do not count. A misread bracket (in the lines of a
+/// block scalar) is harmless: the parser has its own guard.
 class NestingScan {
   public:
     /// The maximum nesting in the line. Precondition: all previous lines were passed.
     std::size_t depth_of(std::string_view line) {
-        const std::size_t indent = line.find_first_not_of(" \t\r");
-        if (indent == std::string_view::npos || line[indent] == '#') return 0;
-        std::size_t at = indent;
-        if (flow_ == 0) {
-            for (;; at = line.find_first_not_of(' ', at + 1)) {
-                if (at == std::string_view::npos) return columns_.size();
-                while (!columns_.empty() && columns_.back() >= at) columns_.pop_back();
-                columns_.push_back(at);
-                const bool indicator = line[at] == '-' || line[at] == '?' || line[at] == ':';
-                if (!indicator || (at + 1 < line.size() && line[at + 1] != ' ')) break;
-            }
+        std::size_t at = 0;
+        bool begins = true;  // a value may begin here
+        if (quote_ != 0) {
+            at = after_quote(line, 0);
+            begins = false;
+        } else {
+            const std::size_t indent = line.find_first_not_of(" \t\r");
+            if (indent == std::string_view::npos || line[indent] == '#') return 0;
+            at = indent;
+            if (flow_ == 0 && !pass_indicators(line, at)) return columns_.size();
         }
         std::size_t deepest = flow_;
-        for (; at < line.size(); ++at) {
-            if (line[at] == '[' || line[at] == '{') deepest = std::max(deepest, ++flow_);
-            if ((line[at] == ']' || line[at] == '}') && flow_ > 0) --flow_;
+        while (at < line.size()) {
+            const char c = line[at];
+            if (c == '#' && (at == 0 || is_blank(line[at - 1]))) break;
+            if (is_blank(c)) {
+                ++at;
+            } else if (begins && (c == '"' || c == '\'')) {
+                quote_ = c;
+                at = after_quote(line, at + 1);
+                begins = false;
+            } else if ((c == '[' || c == '{') && (begins || flow_ > 0)) {
+                deepest = std::max(deepest, ++flow_);
+                begins = true;
+                ++at;
+            } else if ((c == ']' || c == '}') && flow_ > 0) {
+                --flow_;
+                begins = false;
+                ++at;
+            } else if (begins && (c == '&' || c == '!')) {  // an anchor, a tag
+                at = std::min(line.find_first_of(" \t\r", at), line.size());
+            } else {
+                begins = (c == ',' && flow_ > 0) || (c == ':' && ends_word(line, at)) ||
+                         (begins && (c == '-' || c == '?') && ends_word(line, at));
+                ++at;
+            }
         }
         return columns_.size() + deepest;
     }
 
   private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+    static bool ends_word(std::string_view line, std::size_t at) {
+        return at + 1 == line.size() || is_blank(line[at + 1]);
+    }
+
+    /// Notes the columns of a block's nodes in the line; false if nothing follows them.
+    bool pass_indicators(std::string_view line, std::size_t& at) {
+        for (;; at = line.find_first_not_of(' ', at + 1)) {
+            if (at == std::string_view::npos) return false;
+            while (!columns_.empty() && columns_.back() >= at) columns_.pop_back();
+            columns_.push_back(at);
+            const bool indicator = line[at] == '-' || line[at] == '?' || line[at] == ':';
+            if (!indicator || (at + 1 < line.size() && line[at + 1] != ' ')) return true;
+        }
+    }
+
+    /// The place behind the quote that is open at `at`; the line's end if it stays open.
+    std::size_t after_quote(std::string_view line, std::size_t at) {
+        for (; at < line.size(); ++at) {
+            const bool escapes = quote_ == '"' ? line[at] == '\\' : line.substr(at, 2) == "''";
+            if (escapes) {
+                ++at;
+            } else if (line[at] == quote_) {
+                quote_ = 0;
+                return at + 1;
+            }
+        }
+        return line.size();
+    }
+
     std::vector<std::size_t> columns_;
     std::size_t flow_ = 0;
+    char quote_ = 0;  ///< of the quoted scalar that is open at the end of the line, or 0
 };
 
 void check_nesting(std::string_view bytes, const std::string& file, int max_nesting) {

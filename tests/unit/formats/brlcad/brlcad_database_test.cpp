@@ -185,6 +185,47 @@ TEST(BrlcadV4, ASolidThatCannotBeReadIsThereAsOneThatIsNotSupported) {
     EXPECT_EQ(text_of(found), "a.asc:5:8: warning: expected 3 numbers, found 'x' as number 3\n");
 }
 
+TEST(BrlcadV4, SolidsOfUnsupportedTypesAreKnownByName) {
+    Diagnostics found;
+    const BrlcadDatabase database =
+        v4("# a comment\nd sk 0 0 0 1 0 0 0 1 0 4 2\n -1 -1 1 -1 1 1 -1 1\n L 0 0 1\n L 0 1 2\n"
+           "e ex sk 0 0 0 -9 0 0 18 1 0 0 0 1 0\nb spl 2\nD 2 2 2 2 1 1 3 1 1\n0\n1\n0\n1\n-1\n-1\n"
+           "0\nD 2 2 2 2 1 1 3 1 1\n0\n1\n0\n1\n1\n1\n0\nS 19 last 1 0 0 0 1 0 0 0 1 0 0 0 1" +
+               kZeros + "\n",
+           found);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(database.objects.size(), 4u);
+    for (const char* name : {"sk", "ex", "spl"}) (void)solid<BrlcadUnsupported>(database, name);
+    EXPECT_NE(database.find("last"), nullptr);
+}
+
+TEST(BrlcadV4, OnlyPlatesOfMode3HaveThicknessesInTheFile) {
+    Diagnostics found;
+    const std::string rest = "0: 0 0 0\n1: 1 0 0\n2: 0 1 0\n";
+    const BrlcadDatabase database = v4(
+        "t a 3 2 0 3 1\n" + rest + "0: 0 1 2 0.5\n 80\n" + "t b 4 2 0 3 1\n" + rest + "0: 0 1 2\n",
+        found);
+    EXPECT_EQ(text_of(found), "");
+    for (const char* name : {"a", "b"}) {
+        const BrlcadMesh bot = solid<BrlcadMesh>(database, name);
+        EXPECT_TRUE(bot.plate) << name;
+        EXPECT_EQ(bot.mesh->triangles.size(), 1u) << name;
+    }
+}
+
+TEST(BrlcadV4, RadiiOfAHornTorusMayDifferByTheRoundingOfFloat) {
+    const auto minor = [](const char* radius) {
+        Diagnostics found;
+        const BrlcadDatabase database =
+            v4("S 16 a 6 0 0 0 0 0 " + std::string(radius) + " 5 0 0 0 5 0" + kZeros + "\n", found);
+        EXPECT_EQ(text_of(found), "");
+        return solid<BrlcadTorus>(database, "a").minor;
+    };
+    EXPECT_EQ(minor("5.0000005"), 5);
+    EXPECT_EQ(minor("5.001"), 5.001);
+    EXPECT_EQ(minor("4.9999995"), 4.9999995);
+}
+
 TEST(BrlcadV4, OfTheSameNameTwiceTheFirstIsKept) {
     Diagnostics found;
     (void)v4("C N a 0 0 0\nC N a 0 0 0\n", found);

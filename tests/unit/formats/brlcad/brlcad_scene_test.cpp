@@ -6,7 +6,6 @@
 
 #include "alhazen/formats/brlcad/brlcad_importer.h"
 #include "alhazen/formats/brlcad/brlcad_shader.h"
-#include "alhazen/formats/brlcad/brlcad_view.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/materials/material.h"
@@ -190,6 +189,12 @@ TEST(BrlcadScene, TheTableOfColoursIsForRegionsWithoutAColourOfTheirOwn) {
     const Model above(kBall + "put a comb region yes region_id 7 tree {l ball}\n" +
                       "put b comb rgb {0 255 0} tree {l a}\n" + table);
     EXPECT_EQ(above.color({9, 0, 0}, {-1, 0, 0}), (Rgb{0, 1, 0}));
+    const Model later(kBall + "put a comb region yes region_id 7 tree {l ball}\n" + table +
+                      "color 7 20 255 0 0\n");
+    EXPECT_EQ(later.color({9, 0, 0}, {-1, 0, 0}), (Rgb{1, 0, 0}));
+    const Model zero(kBall + "put a comb region yes region_id 0 tree {l ball}\n" +
+                     "color 0 9 255 255 0\n");
+    EXPECT_EQ(zero.color({9, 0, 0}, {-1, 0, 0}), (Rgb{1, 1, 0}));
     const Model none(kBall + "put a comb region yes region_id 10 tree {l ball}\n" + table);
     EXPECT_EQ(none.color({9, 0, 0}, {-1, 0, 0}), (Rgb{1, 1, 1}));
 }
@@ -482,66 +487,24 @@ TEST(BrlcadScene, AModelWithoutLightsHasOneBesideTheEye) {
               ShadingConventions::ShadowTint::None);
 }
 
-TEST(BrlcadView, TheDefaultIsFrom35And25AsWideAsTheDiagonal) {
-    const auto cameras = brlcad_cameras({{-1.5, -1, -0.5}, {2.5, 3, 1}}, {});
-    ASSERT_EQ(cameras.size(), 8u);
-    const auto& camera = std::get<OrthographicCamera>(cameras[0].camera);
-    // The box has integer corners: (-2, -1, -1) and (3, 3, 1).
-    const double size = std::sqrt(25.0 + 16.0 + 4.0);
-    EXPECT_NEAR(length(camera.right), size, 1e-12);
-    EXPECT_NEAR(length(camera.up), size, 1e-12);
-    EXPECT_NEAR(camera.direction.x, -0.7424038765, 1e-9);
-    EXPECT_NEAR(camera.direction.y, -0.5198367907, 1e-9);
-    EXPECT_NEAR(camera.direction.z, -0.4226182617, 1e-9);
-    const Vec3 middle = camera.origin + (size / std::sqrt(2.0)) * camera.direction;
-    EXPECT_NEAR(length(middle - Vec3{0.5, 1, 0}), 0, 1e-12);
-}
-
-TEST(BrlcadView, OrientationAndRotationSayTheSame) {
-    // Orientation of azimuth 35, elevation 25, from the log of a reference image.
+TEST(BrlcadScene, IfNothingIsLeftWhatIsLeftOutIsAnError) {
     Diagnostics found;
-    const Box3 box{{-1, -1, -1}, {1, 1, 1}};
-    const auto views = read_brlcad_views(
-        "#!/bin/sh\nrt -M <<EOF\nviewsize 157.2;\neye_pt 1 2 3;\n"
-        "orientation 0.248097 0.476591 0.748097 0.389435;\nstart 4; clean;\nend;\n"
-        "viewrot -0.5735764503 0.8191520572 0 0 -0.3461886346 -0.2424038798 0.9063078165 0\n"
-        "0.7424039245 0.519836843 0.4226182699 0 0 0 0 1; set perspective=90;\n"
-        "start 5;\nend;\nae 35 25; lookat_pt 1 2 1;\nEOF\n",
-        "a.rt", box, found);
-    EXPECT_EQ(text_of(found), "");
-    ASSERT_EQ(views.size(), 3u);
-    EXPECT_EQ(views[0].name, "frame 4");
-    const auto& first = std::get<OrthographicCamera>(views[0].camera);
-    const auto& second = std::get<PerspectiveCamera>(views[1].camera);
-    EXPECT_NEAR(length(first.direction - second.look), 0, 3e-6);
-    EXPECT_NEAR(length((1 / 157.2) * first.right - 0.5 * second.right), 0, 3e-6);
-    EXPECT_NEAR(length((1 / 157.2) * first.up - 0.5 * second.up), 0, 3e-6);
-    EXPECT_EQ(first.origin, (Vec3{1, 2, 3}));
-    const auto& third = std::get<PerspectiveCamera>(views[2].camera);
-    EXPECT_NEAR(length(third.look - Vec3{0, 0, -1}), 0, 1e-12);
+    (void)import(
+        "title t\nunits mm\nput a tor V {0 0 0} H {0 0 1} r_a 3 r_h 5\n"
+        "put p pipe V0 {0 0 0} O0 1 I0 0 R0 1\n",
+        found);
+    EXPECT_EQ(found.error_count(), 3u) << text_of(found);
+    EXPECT_TRUE(mentions(found, "no part can be shown")) << text_of(found);
 }
 
-TEST(BrlcadView, ASavedViewHasTheBackgroundOfItsCommand) {
-    EXPECT_EQ(brlcad_view_background("#!/bin/sh\nrt -M -o a.pix -C0/0/51\\\n a.g <<EOF\nae 1 2;\n"),
-              (Rgb{0, 0, 0.2}));
-    EXPECT_EQ(brlcad_view_background("rt -C \"255 0 0\" a.g <<EOF\n"), (Rgb{1, 0, 0}));
-    EXPECT_FALSE(brlcad_view_background("ae 35 25; -C0/0/50;").has_value());
-    EXPECT_FALSE(brlcad_view_background("rt a.g <<EOF\nend;\nEOF\n").has_value());
-}
-
-TEST(BrlcadView, FaultsOfAScriptAreToldWithTheirLine) {
-    const Box3 box{{-1, -1, -1}, {1, 1, 1}};
-    const auto message = [&](const char* text) {
-        Diagnostics found;
-        (void)read_brlcad_views(text, "a.rt", box, found);
-        return text_of(found);
-    };
-    EXPECT_NE(message("").find("no view in the script"), std::string::npos);
-    EXPECT_NE(message("\nviewsize 0;").find("a.rt:2:1: error: the size"), std::string::npos);
-    EXPECT_NE(message("ae 35;").find("expected 2 numbers"), std::string::npos);
-    EXPECT_NE(message("orientation 0 0 0 0;").find("must not be zero"), std::string::npos);
-    EXPECT_NE(message("viewsize nan;").find("found 'nan'"), std::string::npos);
-    EXPECT_NE(message("set perspective=200; ae 1 2;").find("0 to 180"), std::string::npos);
+TEST(BrlcadScene, ObliqueAxesAreADoubt) {
+    for (const char* solid :
+         {"epa V {0 0 0} H {0 0 2} A {1 0 .1} r_1 1 r_2 1",
+          "ehy V {0 0 0} H {0 0 2} A {1 0 .1} r_1 1 r_2 1 c 1",
+          "tgc V {0 0 0} H {0 0 2} A {1 0 0} B {.1 1 0} C {1 0 0} D {.1 1 0}"}) {
+        const Model model("put a " + std::string(solid) + "\n");
+        EXPECT_TRUE(mentions(model.found(), "not perpendicular")) << text_of(model.found());
+    }
 }
 
 }  // namespace

@@ -23,6 +23,13 @@ Lexed lex(const SourceText& source) {
     return result;
 }
 
+TEST(Lexer, ACommentEndsWithItsLineWhateverEndsTheLine) {
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+        const SourceText source("1 // a" + std::string(end) + "2", "f");
+        EXPECT_EQ(lex(source).tokens.size(), 2u);
+    }
+}
+
 double number_of(const std::string& text) {
     const SourceText source(text, "f");
     const Lexed lexed = lex(source);

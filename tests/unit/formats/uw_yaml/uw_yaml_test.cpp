@@ -55,6 +55,24 @@ void expect_point(const Vec3& p, const Vec3& expected) {
         << " " << expected.z;
 }
 
+TEST(UwYaml, BracketsInTextDoNotNest) {
+    std::string lines;
+    for (int i = 0; i < 300; ++i) {
+        lines += "        Note " + std::to_string(i) +
+                 ": {a: \"[x\\\"{\", b: 'it''s [', c: [1, {d: 2}]}" +
+                 "  # of [0, 1)\n        Plain " + std::to_string(i) + ": gap [i, 1\n" +
+                 "        Long " + std::to_string(i) + ": \"[\n          [ {\"\n";
+    }
+    Diagnostics found;
+    (void)import_text(scene_of(kCamera + lines), "yaml", found);
+    EXPECT_FALSE(mentions(found, "nested")) << text_of(found);
+    std::string deep;
+    for (int i = 0; i < 300; ++i) deep += "[\"]\", ";
+    Diagnostics nested;
+    EXPECT_THROW((void)import_text(scene_of(kCamera + "        X: " + deep + "\n"), "yaml", nested),
+                 Error);
+}
+
 TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
     Diagnostics found;
     const SceneDescription scene =
