@@ -100,11 +100,13 @@ IsolatedSolid::IsolatedSolid(const SolidList& solids, SolidId id)
             const Placement own = take_shape(table, place_.shape, alone);
             world_ = {world_.outer_from_inner * own.outer_from_inner,
                       own.inner_from_outer * world_.inner_from_outer};
-        } else if (table.size() == table.meshes[place_.mesh].mesh->triangles.size()) {
+        } else if (table.size() == table.meshes[place_.mesh].mesh->triangles.size() &&
+                   table.meshes[place_.mesh].visible_to == kAllRays) {
             aggregate_ = place_.aggregate;
         } else {
             PlacedMesh mesh = table.meshes[place_.mesh];
             mesh.material = MaterialId{0};
+            mesh.visible_to = kAllRays;
             alone.meshes.push_back(std::move(mesh));
             accelerator = kDefaultAccelerator;
         }

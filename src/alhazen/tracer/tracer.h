@@ -6,7 +6,8 @@
 /// (geometry/ray_scale.h). An invalid ray (`is_valid`) hits nothing. A query sees geometry whose
 /// `visible_to` shares a bit with its `mask`; the same holds for each enclosing instance. All
 /// accelerators give the same hits, bit for bit. At equal t the lower primitive wins: analytic
-/// shapes before triangles before instances, each kind in the order of addition.
+/// shapes (by type, in the order of shapes/shape_list.h) before triangles before instances, each
+/// type in the order of addition.
 /// Complexity and threads: parallel build, about O(n log n). Const functions are thread-safe; a
 /// batch runs on its calling thread. Copies share the acceleration structure.
 
@@ -82,8 +83,9 @@ class Tracer {
     /// Builds over the whole scene, which may be empty.
     explicit Tracer(TracerScene scene, const TracerOptions& options = {});
     /// Maps a tree stored by `save` for the same scene into memory instead of building it. The hits
-    /// are the same. Throws Error (File) when the file is damaged, belongs to other geometry or
-    /// comes from another library version. Instances are loaded or built separately.
+    /// are the same, as is the precision. Throws Error (File) when the file is damaged, belongs to
+    /// other geometry or comes from another library version. Instances are loaded or built
+    /// separately.
     [[nodiscard]] static Tracer load(TracerScene scene, const std::filesystem::path& file);
     /// Stores the tree, not the geometry, atomically. Throws Error: Usage for an accelerator other
     /// than `wide_bvh`, File when the file cannot be written.

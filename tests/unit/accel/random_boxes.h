@@ -25,11 +25,15 @@ class SlantedHeap final : public BoundsSource {
     [[nodiscard]] std::size_t size() const override { return count_; }
     [[nodiscard]] Box3 box(std::size_t) const override { return {{0, 0, 0}, {1, 1, 1}}; }
     [[nodiscard]] bool overlaps(std::size_t, const Box3& cell) const override {
+        ++tests_;
         return cell.lo.x + 0.1 * cell.lo.y <= 0.7 && cell.hi.x + 0.1 * cell.hi.y >= 0.7;
     }
 
+    [[nodiscard]] std::size_t tests() const { return tests_; }
+
   private:
     std::size_t count_;
+    mutable std::size_t tests_ = 0;
 };
 
 inline Boxes random_boxes(std::size_t count, double size, std::uint64_t seed) {

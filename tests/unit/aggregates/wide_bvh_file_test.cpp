@@ -254,7 +254,7 @@ std::string forged(const std::function<void(StoredWideBvh&)>& forge,
     WideBvhAggregate(table, options).save(path);
     StoredWideBvh tree = load_wide_bvh(path, table);
     forge(tree);
-    save_wide_bvh(path, tree.layout, tree.box, tree.unbounded, table);
+    save_wide_bvh(path, tree.layout, tree.box, tree.unbounded, table, tree.precision);
     return refusal(table, path);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "support/scene_maker.h"
@@ -23,6 +24,27 @@ SectionOutlines outlines_of(const S& shape, const SectionPlane& plane,
     maker.add(shape);
     const SolidList solids(maker.compile().aggregate);
     return trace_section(IsolatedSolid(solids, SolidId{0}), frame_of(plane), options);
+}
+
+TEST(Section, AClosedMeshThatNoRaySeesIsCutAndMeasuredAlone) {
+    for (const bool alone : {true, false}) {
+        PrimitiveTable table;
+        auto mesh = std::make_shared<TriangleMesh>();
+        mesh->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+        PlacedMesh placed;
+        placed.mesh = mesh;
+        placed.visible_to = 0;
+        table.meshes.push_back(placed);
+        if (!alone) table.meshes.push_back(placed);
+        table.material_opacity = {Opacity::Opaque};
+        table.finish();
+        const SolidList solids(make_aggregate("wide_bvh", std::move(table), {}));
+        ASSERT_EQ(solids.count(), alone ? 1u : 2u);
+        const SectionOutlines found = trace_section(IsolatedSolid(solids, SolidId{0}),
+                                                    frame_of({{0, 0, 1}, 0.5}), {.cells = 64});
+        EXPECT_NEAR(found.area(), 0.125, 1e-6) << alone;
+    }
 }
 
 TEST(Section, TheOutlineOfASphereStaysWithinTheToleranceOfItsCircle) {

@@ -62,6 +62,27 @@ TEST(TracerFile, TreesOfEveryQualityAreStored) {
     }
 }
 
+TEST(TracerFile, ATreeOfFastPrecisionKeepsIt) {
+    const ScratchFolder folder;
+    const TracerScene scene = mixed_scene(11, 3000);
+    const Tracer fast(scene, {.build = {.precision = Precision::Fast}});
+    fast.save(folder.path() / "tree");
+    const Tracer loaded = Tracer::load(scene, folder.path() / "tree");
+    const Tracer robust(scene);
+    std::size_t differ = 0;
+    for (const Ray& ray : random_rays(12, 2000)) {
+        Hit one, other, exact;
+        fast.intersect(ray, one);
+        loaded.intersect(ray, other);
+        robust.intersect(ray, exact);
+        ASSERT_TRUE(same_hit(one, other));
+        differ += !same_hit(one, exact);
+        if (!one.found()) continue;
+        ASSERT_EQ(fast.details(ray, one).error, loaded.details(ray, other).error);
+    }
+    EXPECT_GT(differ, 10u);
+}
+
 TEST(TracerFile, ALoadedTracerIsAnInstanceLikeAnother) {
     const ScratchFolder folder;
     Tracer(mixed_scene(5)).save(folder.path() / "inner");

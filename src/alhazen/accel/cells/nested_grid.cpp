@@ -97,7 +97,7 @@ class NestedGridBuilder {
         if (!divides || (depth > 0 && fill(inside, box))) return make_list(inside);
         const Draft draft = divide(inside, box);
         if (depth > 0 && !pays(draft, inside.size(), box)) return make_list(inside);
-        return make_grid(draft, depth);
+        return make_grid(draft, inside.size(), depth);
     }
 
     Cell make_list(const std::vector<std::uint32_t>& inside) {
@@ -109,7 +109,7 @@ class NestedGridBuilder {
         return cell;
     }
 
-    Cell make_grid(const Draft& draft, int depth) {
+    Cell make_grid(const Draft& draft, std::size_t count, int depth) {
         const auto number = static_cast<std::uint32_t>(made_.grids_.size());
         const std::size_t cells = draft.starts.size() - 1;
         check_room(made_.cells_.size() + cells);
@@ -123,12 +123,14 @@ class NestedGridBuilder {
         const std::size_t first = made_.cells_.size();
         grid.first_cell = static_cast<std::uint32_t>(first);
         made_.cells_.resize(first + cells);
+        // Cells of a heap would each be divided for nothing.
+        const bool divides = !parts_nothing(draft, count);
         std::vector<std::uint32_t> inside;
         draft.for_cells(draft.all(), [&](std::size_t c, const Box3& box) {
             inside.assign(draft.entries.begin() + draft.starts[c],
                           draft.entries.begin() + draft.starts[c + 1]);
             // A temporary, since the recursion grows `cells_`.
-            const Cell cell = make_cell(inside, box, depth + 1);
+            const Cell cell = divides ? make_cell(inside, box, depth + 1) : make_list(inside);
             made_.cells_[first + c] = cell;
         });
         return {number, Cell::kIsGrid};
@@ -229,9 +231,10 @@ class NestedGridBuilder {
         }
     }
 
-    /// True if the nonempty cells contain nearly all of the primitives: these overlap, and finer
-    /// cells would only copy their list.
+    /// True if each nonempty cell contains nearly all of the primitives, a heap: these overlap, and
+    /// finer cells would only copy their list.
     static bool parts_nothing(const Draft& draft, std::size_t count) {
+        if (count < kHeap) return false;
         std::size_t used = 0;
         for (std::size_t c = 0; c + 1 < draft.starts.size(); ++c) {
             used += draft.starts[c + 1] > draft.starts[c];
@@ -246,7 +249,7 @@ class NestedGridBuilder {
     /// True if the expected cost of a ray that intersects the box is lower with the grid than with
     /// the list: the probability of intersecting a cell is the ratio of the areas.
     static bool pays(const Draft& draft, std::size_t count, const Box3& box) {
-        if (count >= kHeap && parts_nothing(draft, count)) return false;
+        if (parts_nothing(draft, count)) return false;
         double cost = 0;
         draft.for_cells(draft.all(), [&](std::size_t c, const Box3& cell) {
             const double tests = draft.starts[c + 1] - draft.starts[c];

@@ -56,7 +56,8 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     unbounded_ = std::move(stored.unbounded);
     treeless_ = TreelessPackets(table_, unbounded_);
     layout_ = std::move(stored.layout);
-    kernels_ = wide_bvh_kernels(layout_.tree.width);
+    precision_ = stored.precision;
+    kernels_ = wide_bvh_kernels(layout_.tree.width, precision_);
     built_cost_ = layout_.sah_cost();
     finish_build();
 }
@@ -67,7 +68,7 @@ std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable ta
 }
 
 void WideBvhAggregate::save(const std::filesystem::path& file) const {
-    save_wide_bvh(file, layout_, box_, unbounded_, table_);
+    save_wide_bvh(file, layout_, box_, unbounded_, table_, precision_);
 }
 
 RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {

@@ -41,6 +41,7 @@ struct Header {
     NodeRef root;
     std::uint32_t empty;
     std::int32_t depth;
+    std::uint32_t precision;  ///< a Precision
     LocalFrame frame;
     Box3 box;
 };
@@ -103,6 +104,12 @@ void check_header(const std::filesystem::path& path, const Header& header, std::
         header.block_width != own.block_width ||
         std::memcmp(header.element_bytes, own.element_bytes, sizeof(own.element_bytes)) != 0) {
         refuse(path, "the tree was stored by a build with other nodes or leaves");
+    }
+    // Kernels in single precision exist for one width.
+    if (header.precision > static_cast<std::uint32_t>(Precision::Fast) ||
+        (header.precision != static_cast<std::uint32_t>(Precision::Robust) &&
+         header.node_width != BuildOptions{}.width)) {
+        refuse(path, "the tree has a precision that this build lacks");
     }
     std::size_t expected = kHeaderBytes;
     for (std::size_t i = 0; i < kMaxArrays; ++i) {
@@ -174,13 +181,15 @@ void check_bytes(const std::filesystem::path& path, std::span<const std::byte> b
 }  // namespace
 
 void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layout, const Box3& box,
-                   const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table) {
+                   const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table,
+                   Precision precision) {
     Header header = header_of_this_build();
     header.fingerprint = table_fingerprint(table);
     header.node_width = layout.tree.width;
     header.root = layout.tree.empty ? NodeRef::node(0) : layout.tree.root;
     header.empty = layout.tree.empty;
     header.depth = layout.tree.depth;
+    header.precision = static_cast<std::uint32_t>(precision);
     header.frame = layout.frame;
     // The padding after the flag was copied with undefined content.
     constexpr std::size_t kGap = offsetof(LocalFrame, usual) + sizeof(LocalFrame::usual);
@@ -228,6 +237,7 @@ StoredWideBvh load_wide_bvh(const std::filesystem::path& path, const PrimitiveTa
     tree.layout.tree.depth = header.depth;
     tree.layout.tree.width = header.node_width;
     tree.box = header.box;
+    tree.precision = static_cast<Precision>(header.precision);
     ArrayReader arrays(file, header);
     for_each_array(tree.layout, [&]<class T>(MappableVector<T>& array) {
         array = MappableVector<T>(arrays.next<T>(), file);

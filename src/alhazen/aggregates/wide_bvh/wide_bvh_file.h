@@ -14,23 +14,26 @@
 #include <filesystem>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/geometry/box.h"
 
 namespace alhazen {
 
 /// Must be raised when the meaning of the stored arrays changes; sizes are compared anyway.
-inline constexpr std::uint32_t kWideBvhFileVersion = 5;
+inline constexpr std::uint32_t kWideBvhFileVersion = 6;
 
 struct StoredWideBvh {
     WideBvhLayout layout;
     Box3 box;                            ///< of all primitives
     std::vector<PrimitiveId> unbounded;  ///< those outside the tree
+    Precision precision = Precision::Robust;
 };
 
 /// Writes the tree atomically. Throws Error (File).
 void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layout, const Box3& box,
-                   const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table);
+                   const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table,
+                   Precision precision);
 
 /// Maps the tree. Throws Error (File) if the file is no such tree, damaged, truncated, of another
 /// kind of build or of another geometry than `table`, or has an invalid reference.
