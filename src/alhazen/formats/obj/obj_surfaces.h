@@ -27,8 +27,4 @@ struct ObjSurface {
                                                         const std::string& file,
                                                         Diagnostics& diagnostics);
 
-/// The part [from, to] of a curve, reversed if from > to. Preconditions: valid knots, and a range
-/// within them.
-[[nodiscard]] TrimCurve trim_curve_part(TrimCurve curve, double from, double to);
-
 }  // namespace alhazen

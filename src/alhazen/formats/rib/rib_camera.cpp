@@ -1,5 +1,6 @@
 #include "alhazen/formats/rib/rib_camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -82,12 +83,16 @@ double RibCamera::aspect() const {
 
 void RibCamera::add(const Affine& camera_from_world, const FileLocation& where,
                     SceneDescription& scene) const {
+    const double ratio = aspect();
     if (format_) {
-        scene.picture.width = int((*format_)[0]);
-        scene.picture.height = int((*format_)[1]);
+        // A frame of another aspect than the format is the largest that fits into it.
+        const auto [width, height, pixel] = *format_;
+        const double fit = ratio * height / (width * pixel);
+        const auto part = [](double size) { return std::max(1, int(std::lround(size))); };
+        scene.picture.width = fit < 1.0 ? part(width * fit) : int(width);
+        scene.picture.height = fit > 1.0 ? part(height / fit) : int(height);
     }
     if (!projected_) return;
-    const double ratio = aspect();
     const double x = std::fmax(ratio, 1.0), y = std::fmax(1.0 / ratio, 1.0);
     const auto [left, right, bottom, top] = window_.value_or(std::array{-x, x, -y, y});
     const Affine world = inverse(camera_from_world);
@@ -97,7 +102,9 @@ void RibCamera::add(const Affine& camera_from_world, const FileLocation& where,
     const Vec3 high = world.vector({0, scale * (top - bottom), 0});
     CameraDescription camera;
     camera.name = "camera";
-    camera.aspect = (right - left) / (top - bottom);
+    // The screen window fills the picture, whatever the shape of its pixels.
+    camera.aspect = format_ ? double(*scene.picture.width) / double(*scene.picture.height)
+                            : (right - left) / (top - bottom);
     camera.location = where;
     if (perspective_) {
         camera.camera = PerspectiveCamera{world.point({0, 0, 0}),

@@ -25,9 +25,14 @@ bool read_rib_count(const RibRequest& request, std::size_t argument, const char*
     return false;
 }
 
+struct RibPoints {
+    std::vector<HomogeneousPoint> points;
+    bool rational = false;  ///< "Pw"
+};
+
 /// Reads the control points "P" or "Pw" from the parameters from `first` on.
-bool read_rib_points(const RibRequest& request, std::size_t first,
-                     std::vector<HomogeneousPoint>& points, RibScene& scene) {
+bool read_rib_points(const RibRequest& request, std::size_t first, RibPoints& read,
+                     RibScene& scene) {
     for (std::size_t k = first; k + 1 < request.arguments.size(); k += 2) {
         const std::string* declared = request.string(k);
         if (declared == nullptr) break;
@@ -41,8 +46,9 @@ bool read_rib_points(const RibRequest& request, std::size_t first,
                             std::to_string(width) + " for each point");
             return false;
         }
+        read.rational = width == 4;
         for (std::size_t i = 0; i < n.size(); i += width) {
-            points.push_back({n[i], n[i + 1], n[i + 2], width == 4 ? n[i + 3] : 1.0});
+            read.points.push_back({n[i], n[i + 1], n[i + 2], read.rational ? n[i + 3] : 1.0});
         }
         return true;
     }
@@ -68,17 +74,22 @@ std::optional<bool> is_rib_bicubic(const RibRequest& request, RibScene& scene) {
 }
 
 /// The patch whose first control point is (u, v) of a net of nu * nv points, which wraps around.
-BezierNet rib_net(const RibState& state, bool bicubic, const std::vector<HomogeneousPoint>& points,
-                  std::size_t nu, std::size_t nv, std::size_t u, std::size_t v) {
+BezierNet rib_net(const RibState& state, bool bicubic, const RibPoints& read, std::size_t nu,
+                  std::size_t nv, std::size_t u, std::size_t v) {
     const auto point = [&](std::size_t i, std::size_t j) {
-        return points[(v + j) % nv * nu + (u + i) % nu];
+        return read.points[(v + j) % nv * nu + (u + i) % nu];
     };
+    BezierNet net;
     if (bicubic) {
         std::array<HomogeneousPoint, 16> p;
         for (std::size_t k = 0; k < 16; ++k) p[k] = point(k / 4, k % 4);
-        return bezier_of(state.basis_u, state.basis_v, p);
+        net = bezier_of(state.basis_u, state.basis_v, p);
+        // Control vectors of a basis may be tangents, which have no weight.
+        if (!read.rational) {
+            for (HomogeneousPoint& q : net.points) q.w = 1.0;
+        }
+        return net;
     }
-    BezierNet net;
     net.degree_u = net.degree_v = 1;
     for (std::size_t k = 0; k < 4; ++k) net.points[k] = point(k / 2, k % 2);
     return net;
@@ -86,10 +97,10 @@ BezierNet rib_net(const RibState& state, bool bicubic, const std::vector<Homogen
 
 void read_rib_patch(const RibRequest& request, const RibState& state, RibScene& scene) {
     const std::optional<bool> bicubic = is_rib_bicubic(request, scene);
-    std::vector<HomogeneousPoint> points;
+    RibPoints points;
     if (!bicubic || !read_rib_points(request, 1, points, scene)) return;
     const std::size_t side = *bicubic ? 4 : 2;
-    if (!has_rib_points(request, points.size(), side * side, scene)) return;
+    if (!has_rib_points(request, points.points.size(), side * side, scene)) return;
     scene.add_patch(state, rib_net(state, *bicubic, points, side, side, 0, 0), request.place);
 }
 
@@ -126,12 +137,12 @@ bool read_rib_span(const RibRequest& request, std::size_t argument, bool bicubic
 void read_rib_patch_mesh(const RibRequest& request, const RibState& state, RibScene& scene) {
     const std::optional<bool> bicubic = is_rib_bicubic(request, scene);
     RibSpan u, v;
-    std::vector<HomogeneousPoint> points;
+    RibPoints points;
     if (!bicubic || !read_rib_span(request, 1, *bicubic, state.step_u, u, scene) ||
         !read_rib_span(request, 3, *bicubic, state.step_v, v, scene) ||
         !read_rib_points(request, 5, points, scene) ||
-        !has_rib_points(request, points.size(), std::uint64_t(u.points) * std::uint64_t(v.points),
-                        scene)) {
+        !has_rib_points(request, points.points.size(),
+                        std::uint64_t(u.points) * std::uint64_t(v.points), scene)) {
         return;
     }
     const int before = scene.errors();
@@ -211,12 +222,12 @@ void set_rib_trims(const RibState& state, const RibKnots& u, const RibKnots& v, 
 
 void read_rib_nu_patch(const RibRequest& request, const RibState& state, RibScene& scene) {
     RibKnots u, v;
-    std::vector<HomogeneousPoint> points;
+    RibPoints points;
     const bool knots = read_rib_knots(request, 0, u, scene);
     if (!read_rib_knots(request, 5, v, scene) || !knots ||
         !read_rib_points(request, 10, points, scene) ||
-        !has_rib_points(request, points.size(), std::uint64_t(u.points) * std::uint64_t(v.points),
-                        scene)) {
+        !has_rib_points(request, points.points.size(),
+                        std::uint64_t(u.points) * std::uint64_t(v.points), scene)) {
         return;
     }
     NurbsSurface s;
@@ -226,7 +237,7 @@ void read_rib_nu_patch(const RibRequest& request, const RibState& state, RibScen
     bool rational = false;
     for (std::size_t i = 0; i < std::size_t(u.points); ++i) {
         for (std::size_t j = 0; j < std::size_t(v.points); ++j) {
-            const HomogeneousPoint& p = points[j * std::size_t(u.points) + i];
+            const HomogeneousPoint& p = points.points[j * std::size_t(u.points) + i];
             if (!(p.w > 0.0)) {
                 scene.error(request.place, "the weights of a surface must be positive, not " +
                                                std::to_string(p.w));
@@ -274,7 +285,7 @@ std::optional<AnyShape> whole_rib_disk(RibNumbers n) {
     return Disc{{0, 0, n[0]}, {0, 0, 1}, std::fabs(n[1]), 0.0};
 }
 std::optional<AnyShape> whole_rib_torus(RibNumbers n) {
-    if (std::fabs(n[3] - n[2]) < 360.0 || n[1] > n[0]) return std::nullopt;
+    if (std::fabs(n[3] - n[2]) < 360.0) return std::nullopt;
     return Torus{{0, 0, 0}, {0, 0, 1}, n[0], n[1]};
 }
 std::optional<AnyShape> whole_rib_paraboloid(RibNumbers n) {
@@ -318,6 +329,10 @@ void read_rib_quadric(const RibQuadric& quadric, const RibRequest& request, cons
     std::optional<AnyShape> shape;
     if (std::fabs(sweep) >= 360.0) shape = quadric.whole(n);
     if (!shape) return scene.leave_out("partial " + name, request.place);
+    if (const auto* torus = std::get_if<Torus>(&*shape);
+        torus != nullptr && torus->minor_radius > torus->major_radius) {
+        return scene.leave_out("Torus that penetrates itself", request.place);
+    }
     scene.add_shape(state, std::move(*shape), request.place);
 }
 

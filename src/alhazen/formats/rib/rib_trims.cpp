@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/formats/rib/rib_geometry.h"
+#include "alhazen/shapes/patches/nurbs/trim_curve_part.h"
 
 namespace alhazen {
 
@@ -51,11 +52,14 @@ class RibTrimReader {
         }
         curve.degree = std::uint32_t(order - 1);
         curve.knots.assign(knots_.begin(), knots_.begin() + std::ptrdiff_t(n + order));
-        if (least_[i] != curve.knots[order - 1] || most_[i] != curve.knots[n]) {
-            return fail("the range of the parameter must be that of the knots");
+        if (!(least_[i] >= curve.knots[order - 1] && least_[i] < most_[i] &&
+              most_[i] <= curve.knots[n])) {
+            return fail("the range of the parameter must be within that of the knots");
         }
         knots_ = knots_.subspan(n + order);
-        return read_points(n, curve);
+        if (!read_points(n, curve)) return false;
+        curve = trim_curve_part(std::move(curve), least_[i], most_[i]);
+        return true;
     }
     bool read_points(std::size_t n, TrimCurve& curve) {
         bool rational = false;

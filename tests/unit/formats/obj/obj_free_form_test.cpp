@@ -6,6 +6,7 @@
 
 #include "alhazen/formats/obj/obj_importer.h"
 #include "alhazen/formats/obj/obj_surfaces.h"
+#include "alhazen/shapes/patches/nurbs/trim_curve_part.h"
 #include "unit/formats/text_scene.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

@@ -94,6 +94,50 @@ TEST(Rib, EveryBasisIsTheSameCurveAsItsMatrix) {
     EXPECT_FALSE(CubicBasis::named("beta"));
 }
 
+TEST(Rib, PatchesOfPointsWithoutWeightsAreNotRationalInAnyBasis) {
+    // x = u, y = v: coefficients of powers, then end points and tangents.
+    const auto power = import_rib(
+        "Basis \"power\" 1 \"power\" 1 Patch \"bicubic\" \"P\" [0 0 0 0 0 0 0 0 0 0 0 0  0 0 0 0 0 "
+        "0 0 0 0 "
+        "0 0 0  0 0 0 0 0 0 0 0 0 0 1 0  0 0 0 0 0 0 1 0 0 0 0 0]");
+    const auto hermite = import_rib(
+        "Basis \"hermite\" 1 \"hermite\" 1 Patch \"bicubic\" \"P\" [0 0 0 1 0 0 1 0 0 1 0 0  0 1 0 "
+        "0 0 0 0 "
+        "1 0 0 0 0  0 1 0 1 0 0 1 1 0 1 0 0  0 1 0 0 0 0 0 1 0 0 0 0]");
+    EXPECT_EQ(power.messages(), "");
+    EXPECT_EQ(hermite.messages(), "");
+    const auto& p = shape_of<PatchMesh>(power);
+    EXPECT_TRUE(p.weights.empty());
+    const BezierNet net = p.net(0);
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            EXPECT_NEAR(length(projected(net.at(i, j)) - Vec3{i / 3., j / 3., 0}), 0, 1e-15);
+        }
+    }
+    const auto& h = shape_of<PatchMesh>(hermite);
+    EXPECT_TRUE(h.weights.empty());
+    EXPECT_EQ(projected(h.net(0).at(3, 0)), (Vec3{1, 0, 0}));
+}
+
+TEST(Rib, TheScreenWindowFillsThePictureWhateverTheShapeOfItsPixels) {
+    const auto camera = [](const std::string& format) {
+        const auto read = import_rib(format + " Projection \"orthographic\" WorldBegin " +
+                                     bilinear(0) + "WorldEnd");
+        EXPECT_EQ(read.messages(), "");
+        const CameraDescription& one = read.scene.cameras.at(0);
+        EXPECT_EQ(one.aspect, double(*read.scene.picture.width) / *read.scene.picture.height);
+        const auto& view = std::get<OrthographicCamera>(one.camera);
+        return std::array<double, 4>{double(*read.scene.picture.width),
+                                     double(*read.scene.picture.height), length(view.right),
+                                     length(view.up)};
+    };
+    using Camera = std::array<double, 4>;
+    EXPECT_EQ(camera("Format 80 40 0.5 ScreenWindow -3 1 -2 2"), (Camera{80, 40, 4, 4}));
+    EXPECT_EQ(camera("Format 80 40 0.5"), (Camera{80, 40, 2, 2}));
+    EXPECT_EQ(camera("Format 64 64 1 FrameAspectRatio 2"), (Camera{64, 32, 4, 2}));
+    EXPECT_EQ(camera("Format 64 64 1 FrameAspectRatio 0.5"), (Camera{32, 64, 2, 4}));
+}
+
 TEST(Rib, MeshesOfPatchesShareTheirBoundariesBitForBit) {
     // A torus of b-splines: closed when neighbours have equal boundary points.
     for (const char* basis : {"b-spline", "catmull-rom"}) {
@@ -132,6 +176,14 @@ TEST(Rib, SurfacesKeepWhatIsOutsideOfTheirTrimCurves) {
     EXPECT_EQ(cut.messages(), "");
     EXPECT_EQ(shape_of<NurbsSurface>(cut).trims.size(), 2u);
     EXPECT_EQ(shape_of<NurbsSurface>(cut).trims[1][0].points[2], (Vec2{0.5, 0.8}));
+    // The same triangle as a part of a curve with a further point.
+    const auto part = import_rib(
+        "TrimCurve [1] [2] [0 0 1 2 3 4 4] [0] [3] [5] [.2 .8 .5 .2 9] [.2 .2 .8 .2 9] [1 1 1 1 "
+        "1]\n" +
+        surface);
+    EXPECT_EQ(part.messages(), "");
+    EXPECT_EQ(shape_of<NurbsSurface>(part).trims[1][0].points,
+              shape_of<NurbsSurface>(cut).trims[1][0].points);
     const auto kept =
         import_rib("Attribute \"trimcurve\" \"sense\" \"outside\"\n" + trim + surface);
     EXPECT_EQ(shape_of<NurbsSurface>(kept).trims.size(), 1u);
@@ -250,6 +302,7 @@ TEST(Rib, EveryFindingHasItsPlace) {
         {"NuPatch 2 2 [0 0 1] 0 1 2 2 [0 0 1 1] 0 1 \"P\" [0]", "expected 4 knots"},
         {"TrimCurve [1] [2] [0 0 1 1] [0] [1] [2] [0 0] [0 0] [1 0]",
          "a.rib:1:1: error: TrimCurve: curve 1: weights must be positive"},
+        {"TrimCurve [1] [2] [0 0 1 1] [0] [1.5] [2] [0 0] [0 0] [1 1]", "must be within that"},
         {"TrimCurve [9e9] [2] [0 0 1 1] [0] [1] [2] [0 0] [0 0] [1 1]", "curve 2: there are fewer"},
         {"AttributeBegin WorldEnd", "a.rib:1:16: error: WorldEnd: the open block is Attribute"},
         {"WorldEnd", "WorldEnd: no block is open"},
