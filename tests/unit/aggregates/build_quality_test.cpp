@@ -141,6 +141,36 @@ TEST(BuildQuality, HighDividesLongTrianglesAndCostsLess) {
     EXPECT_LT(high.layout().sah_cost(), 0.8 * plain.layout().sah_cost());
 }
 
+TEST(BuildQuality, HighDividesNoWallsOfARoomWhereThatCostsMore) {
+    TableBuilder builder;
+    const auto add_box = [&](const Vec3& lo, const Vec3& hi) {
+        const auto corner = [&](int i) {
+            return Vec3{i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z};
+        };
+        for (const auto& [a, b, c, d] :
+             {std::array{0, 1, 3, 2}, std::array{4, 6, 7, 5}, std::array{0, 4, 5, 1},
+              std::array{2, 3, 7, 6}, std::array{0, 2, 6, 4}, std::array{1, 5, 7, 3}}) {
+            builder.add_triangle(corner(a), corner(b), corner(c));
+            builder.add_triangle(corner(a), corner(c), corner(d));
+        }
+    };
+    add_box({0, 0, 0}, {20, 3, 10});
+    for (int i = 0; i < 8; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            const Vec3 desk{1.5 + i * 2.4, 0, 1.2 + k * 2.4};
+            add_box(desk + Vec3{0, 0.7, 0}, desk + Vec3{1.6, 0.75, 0.8});
+            for (const double x : {0.05, 1.5}) {
+                for (const double z : {0.05, 0.7}) {
+                    add_box(desk + Vec3{x, 0, z}, desk + Vec3{x + 0.05, 0.7, z + 0.05});
+                }
+            }
+        }
+    }
+    const PrimitiveTable table = builder.finish();
+    const WideBvhAggregate plain(table, {BuildQuality::Default}), high(table, {BuildQuality::High});
+    EXPECT_LE(high.layout().sah_cost(), plain.layout().sah_cost());
+}
+
 TEST(BuildQuality, NoneDependsOnTheNumberOfThreads) {
     const PrimitiveTable table = needles(30000, 0.3, 48);
     for (const BuildQuality quality : kQualities) {

@@ -494,6 +494,24 @@ TEST(CoherentBatch, TheTraversalFollowsWhatTheTreeHolds) {
     }
 }
 
+TEST(CoherentBatch, IncoherentRaysOfSmallTreesAreStreamedAmongTriangles) {
+    const auto most = [](std::size_t triangles, std::size_t round, std::size_t others) {
+        WideBvhLayout layout;
+        layout.triangles.resize(triangles);
+        layout.spheres.resize(round / 2);
+        layout.frustums.resize(round - round / 2);
+        layout.others.resize(others);
+        return most_single_bytes(layout);
+    };
+    EXPECT_EQ(most(1, 0, 0), 0u);
+    EXPECT_EQ(most(9, 4, 1), 0u);
+    EXPECT_EQ(most(9, 5, 1), kMaxIncoherentSingleBytes);
+    EXPECT_EQ(most(9, 0, 3), kMaxIncoherentSingleBytes);
+    EXPECT_EQ(most(0, 0, 1), kMaxIncoherentSingleBytes);
+    EXPECT_EQ(most(9, 9, 0), kMaxRoundSingleBytes);
+    EXPECT_EQ(most(0, 1, 0), kMaxRoundSingleBytes);
+}
+
 TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {
     // Much finer than the distance of the rays: for packets in lanes, whose rays diverge, and
     // frusta.

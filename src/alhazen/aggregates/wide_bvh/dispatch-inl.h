@@ -65,10 +65,14 @@ class BatchSource {
         if (!tree.root.is_leaf()) root_ = &nodes_of<W>(tree)[tree.root.index()];
     }
 
-    HWY_INLINE bool start(void* place) {
+    /// `entries`: set to where the ray enters the children of the root, if that is known.
+    HWY_INLINE bool start(void* place, const float*& entries) {
         while (true) {
             if (HWY_LIKELY(prepared_ != 0)) {
                 const std::size_t i = take(prepared_);
+                if constexpr (RayRecords::kHasEntries<W>) {
+                    if (HWY_LIKELY(root_ != nullptr)) entries = records_.entries(i - first_);
+                }
                 new (place) Query(scene_, PreparedRay{given_[i - first_], records_[i - first_]},
                                   results_[i]);
                 return true;

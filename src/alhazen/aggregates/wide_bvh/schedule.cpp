@@ -17,14 +17,13 @@ struct ScheduledTree {
     bool treeless;       ///< TreelessPackets traces all primitives
     bool suits_packets;  ///< packets are faster than single rays for some query and target
     bool has_packets;    ///< the kernels trace packets
-    bool round;          ///< most blocks hold round shapes
+    std::size_t most_single_bytes;
 };
 
 Schedule choose_schedule(const ScheduledTree& tree, Coherence coherence) {
     if (tree.treeless) return Schedule::TreelessPackets;
     if (coherence == Coherence::Any) {
-        const std::size_t most = tree.round ? kMaxRoundSingleBytes : kMaxIncoherentSingleBytes;
-        const bool single = tree.bytes <= most && stream_overrides == 0;
+        const bool single = tree.bytes <= tree.most_single_bytes && stream_overrides == 0;
         return single ? Schedule::Single : Schedule::Stream;
     }
     if (tree.suits_packets && tree.has_packets) return Schedule::Packets;
@@ -58,12 +57,17 @@ bool are_alone(const PrimitiveTable& table, const WideBvhLayout& layout) {
     return true;
 }
 
-bool is_round(const WideBvhLayout& layout) {
-    return layout.spheres.size() + layout.frustums.size() >=
-           layout.triangles.size() + layout.indices.size() + layout.others.size();
-}
-
 }  // namespace
+
+std::size_t most_single_bytes(const WideBvhLayout& layout) {
+    const std::size_t triangles = layout.triangles.size() + layout.indices.size();
+    const std::size_t round = layout.spheres.size() + layout.frustums.size();
+    // Of shapes without a filter in lanes the stream gains nothing, and rays one by one try the
+    // last occluders.
+    if (triangles > round + 4 * layout.others.size()) return 0;
+    return round >= triangles + layout.others.size() ? kMaxRoundSingleBytes
+                                                     : kMaxIncoherentSingleBytes;
+}
 
 StreamOverride::StreamOverride() {
     ++stream_overrides;
@@ -77,8 +81,11 @@ Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
     others_alone_ = are_alone(table, layout);
     const ScheduledTree tree{layout.memory_bytes(), treeless,
                              others_alone_ || suits_packets(table, unbounded), has_packets,
-                             is_round(layout)};
+                             most_single_bytes(layout)};
     waits_ = tree.bytes > kMaxSingleTreeBytes;
+    gathers_ = tree.bytes > kMaxIncoherentSingleBytes || tree.most_single_bytes > 0 ||
+               stream_overrides > 0;
+    if (!waits_ && stream_overrides == 0) least_stream_ = kMinStreamBatch;
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);
     }

@@ -84,13 +84,19 @@ inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's
 /// branches.
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
-/// The same for rays that are not coherent.
+/// The same for rays that are not coherent, unless most blocks hold triangles: batches take the
+/// stream in such trees of any size. It is not so much faster in small ones that rays which come
+/// one by one are worth gathering.
 inline constexpr std::size_t kMaxIncoherentSingleBytes = std::size_t{1} << 20;
 /// The same for trees of round shapes: a branch on what their filter finds waits long for it where
 /// one ray is traced at a time.
 inline constexpr std::size_t kMaxRoundSingleBytes = std::size_t{16} << 10;
-/// Smallest number of rays for the stream.
+/// Size of a tree up to which incoherent rays are traced one by one, bytes.
+[[nodiscard]] std::size_t most_single_bytes(const WideBvhLayout& layout);
+/// Smallest number of coherent rays in no packet for the stream.
 inline constexpr std::size_t kMinStreamRays = 16;
+/// Smallest number of rays of a batch for the stream in trees up to kMaxSingleTreeBytes.
+inline constexpr std::size_t kMinStreamBatch = 8;
 
 /// The schedules of one tree, by coherence.
 class Schedules {
@@ -104,6 +110,16 @@ class Schedules {
     [[nodiscard]] Schedule of_batch(Coherence coherence) const {
         return batches_[static_cast<std::size_t>(coherence)];
     }
+    /// The same for a batch of `count` rays: few are not worth a stream.
+    [[nodiscard]] Schedule of_batch(Coherence coherence, std::size_t count) const {
+        const Schedule schedule = of_batch(coherence);
+        return schedule == Schedule::Stream && count < least_stream_ ? Schedule::Single : schedule;
+    }
+    /// Whether rays that come one by one are worth gathering.
+    [[nodiscard]] bool gain_by_batches(Coherence coherence) const {
+        return of_batch(coherence) != Schedule::Single &&
+               (coherence == Coherence::Coherent || gathers_);
+    }
     /// Whether rays that leave a packet in lanes wait for memory, one by one.
     [[nodiscard]] bool waits() const { return waits_; }
     /// Whether none of the shapes without a block of their own is an instance or has a packet test
@@ -112,7 +128,8 @@ class Schedules {
 
   private:
     std::array<Schedule, 2> batches_{Schedule::Stream, Schedule::Stream};  ///< [coherence]
-    bool waits_ = false, others_alone_ = false;
+    std::size_t least_stream_ = 0;  ///< least number of rays for the stream
+    bool gathers_ = true, waits_ = false, others_alone_ = false;
 };
 
 }  // namespace alhazen

@@ -197,7 +197,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
     if (layout_.tree.empty) return;
     WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
-    switch (schedules_.of_batch(coherence)) {
+    switch (schedules_.of_batch(coherence, rays.size())) {
         case Schedule::Single: {
             // Without earlier hits that limit a ray.
             if (outside_.empty()) {
@@ -231,7 +231,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
     if (layout_.tree.empty) return;
     WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
-    switch (schedules_.of_batch(coherence)) {
+    switch (schedules_.of_batch(coherence, rays.size())) {
         case Schedule::Single: {
             if (!layout_.others.empty()) {
                 RecentOccluders recent;
@@ -260,7 +260,7 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
             .closest_columns(batch_scene(query.mask), rays, hits, query.stats)) {
         return;
     }
-    if (streams_alone(coherence)) {
+    if (streams_alone(coherence, rays.size())) {
         std::vector<Hit> found(std::min(kInCache, rays.size()));
         for (std::size_t i = 0; i < rays.size(); i += kInCache) {
             const std::span<Hit> here = std::span(found).first(std::min(kInCache, rays.size() - i));
@@ -282,7 +282,7 @@ void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> 
             .occluded_columns(batch_scene(query.mask), rays, occluded, query.stats)) {
         return;
     }
-    if (streams_alone(coherence)) {
+    if (streams_alone(coherence, rays.size())) {
         std::fill(occluded.begin(), occluded.end(), false);
         return kernels_.for_stats(query.stats)
             .occluded_column_stream(batch_scene(query.mask), rays, occluded, query.stats);

@@ -56,7 +56,7 @@ class WideBvhAggregate final : public Aggregate {
     void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
     [[nodiscard]] bool completes_surfaces() const override { return precision_ == Precision::Fast; }
     [[nodiscard]] bool gains_by_batches(Coherence coherence) const override {
-        return schedules_.of_batch(coherence) != Schedule::Single;
+        return schedules_.gain_by_batches(coherence);
     }
     void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                        Coherence coherence = Coherence::Any) const override;
@@ -96,9 +96,9 @@ class WideBvhAggregate final : public Aggregate {
         return schedules_.of_batch(coherence) == Schedule::Packets && outside_.empty() &&
                !layout_.tree.empty;
     }
-    /// Whether the stream traces a batch, and nothing is outside of the tree.
-    [[nodiscard]] bool streams_alone(Coherence coherence) const {
-        return schedules_.of_batch(coherence) == Schedule::Stream && outside_.empty() &&
+    /// Whether the stream traces a batch of `count` rays, and nothing is outside of the tree.
+    [[nodiscard]] bool streams_alone(Coherence coherence, std::size_t count) const {
+        return schedules_.of_batch(coherence, count) == Schedule::Stream && outside_.empty() &&
                !layout_.tree.empty;
     }
     /// Sorts the hits that a query appended, and removes duplicates.

@@ -203,6 +203,21 @@ DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds) {
     return draft;
 }
 
+double draft_cost(const DraftBvh& draft, std::span<const BuildReference> references,
+                  const LeafKinds& kinds) {
+    if (draft.nodes.empty()) return 0;
+    double cost = 0;
+    for (const DraftNode& node : draft.nodes) {
+        float visit = 0.5f;
+        if (node.is_leaf()) {
+            const LeafKind& kind = kinds[references[node.begin].kind];
+            visit = kind.cost * static_cast<float>(kind.blocks(node.end - node.begin));
+        }
+        cost += static_cast<double>(node.box.weight()) * static_cast<double>(visit);
+    }
+    return cost / static_cast<double>(draft.nodes[draft.root].box.weight());
+}
+
 BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references) {
     if (draft.nodes.empty()) return {};
     Linearizer linearizer({draft.nodes, draft.root}, references);

@@ -33,6 +33,12 @@ struct DraftView {
 /// The same tree; a subtree best kept in one block is a leaf. The root is node 0.
 [[nodiscard]] DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds);
 
+/// Estimates the cost of a tree that is made wide, for comparison with others over the same
+/// primitives: leaves have the cost of their blocks, inner nodes half a visit, for a wide node is
+/// in the place of several. 0 for an empty tree.
+[[nodiscard]] double draft_cost(const DraftBvh& draft, std::span<const BuildReference> references,
+                                const LeafKinds& kinds);
+
 /// Writes the tree with the references in leaf order. Subtrees that begin at level kMaxSahLevel and
 /// are too deep are rebalanced, so the depth is bounded.
 [[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);

@@ -9,9 +9,10 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). `Query` has `filter_block(NodeRef,
 /// stats)`, which begins the test of the first block of a leaf; `settle(stats)`, which ends it, in
 /// a step of its own, if `waits()` is true; both return true to stop. Both may lower `s_max`, the
-/// parameter up to which hits are searched. `slabs` is the ray. `Source` has `start(void* place)`,
-/// which constructs the query of the next ray there and returns false if there is none, and
-/// `finish(query, stats)`, called after its last leaf.
+/// parameter up to which hits are searched. `slabs` is the ray. `Source` has `start(void* place,
+/// const float*& entries)`, which constructs the query of the next ray there and returns false if
+/// there is none, and sets `entries` to where it enters the W children of the root, infinity where
+/// it does not, if that is known; and `finish(query, stats)`, called after its last leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
@@ -112,7 +113,10 @@ class SortedStream {
           stats_(stats) {}
 
     HWY_INLINE void run() {
-        for (Slot& slot : slots_) start(slot);
+        for (Slot& slot : slots_) {
+            if (!start(slot)) break;
+            queue(slot);
+        }
         while (true) {
             lists_.template take<kNodesBehind>(
                 NextStep::Node, [&](Slot& slot) HWY_ATTR { visit_node(slot); },
@@ -130,10 +134,15 @@ class SortedStream {
             const std::size_t done = lists_.count(NextStep::Finish);
             if (starved && done == 0) return;
             if (starved || done >= kEnough) {
-                lists_.take(NextStep::Finish, [&](Slot& slot) HWY_ATTR {
-                    source_.finish(slot.query(), stats_);
-                    start(slot);
-                });
+                lists_.template take<kEndsBehind>(
+                    NextStep::Finish,
+                    [&](Slot& slot) HWY_ATTR {
+                        source_.finish(slot.query(), stats_);
+                        (void)start(slot);
+                    },
+                    [&](Slot& slot) HWY_ATTR {
+                        if (HWY_LIKELY(slot.height != 0)) queue(slot);
+                    });
             }
         }
     }
@@ -146,12 +155,26 @@ class SortedStream {
 
     /// Number of rays that are visited before a ray is queued. The next step of a ray comes out of
     /// a long chain of operations; what waits for its end keeps the processor from running ahead.
-    static constexpr std::size_t kNodesBehind = 5, kLeavesBehind = 2;
+    static constexpr std::size_t kNodesBehind = 5, kLeavesBehind = 2, kEndsBehind = 2;
 
-    HWY_INLINE void start(Slot& slot) {
-        if (!source_.start(slot.place)) return;
+    /// False if there is no ray left.
+    HWY_INLINE bool start(Slot& slot) {
+        const float* entries = nullptr;
+        slot.height = 0;
+        if (!source_.start(slot.place, entries)) return false;
         slot.begin(root_);
-        lists_.add(kNextSteps[0][root_.bits() >> 28], slot);
+        if (entries != nullptr) enter_root(slot, entries);
+        return true;
+    }
+    /// As visit_node, for the root.
+    HWY_INLINE void enter_root(Slot& slot, const float* entries) {
+        const Query& query = slot.query();
+        const WideNodeOf<W>& node = nodes_[root_.index()];
+        stats_.nodes(1);
+        stats_.boxes(node.child_count());
+        // Where the ray leaves a child that it enters was compared already.
+        slot.height = slot.stack.template push<Query::kOrdered>(
+            1, node, load_lanes<W>(entries), Lanes<float, W>(query.s_max), query.slabs.near.octant);
     }
     /// `waits`: a leaf is to be settled before.
     HWY_INLINE void queue(Slot& slot, bool waits = false) {

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
@@ -56,6 +57,14 @@ class RayRecords {
                                      const WideNodeOf<W>* root, std::uint32_t& missed);
 
     [[nodiscard]] HWY_INLINE const RayRecord& operator[](std::size_t i) const { return ray_[i]; }
+    /// Whether it is known where rays enter the children of the root.
+    template <std::size_t W>
+    static constexpr bool kHasEntries = kSupported&& W == kLaneCount;
+    /// Where ray i enters the children of the root, infinity where it does not. Precondition: the
+    /// root was given, and the ray does not miss it.
+    [[nodiscard]] HWY_INLINE const float (&entries(std::size_t i) const)[kLaneCount] {
+        return entry_[i];
+    }
 
   private:
     using F = Lanes<float, kRays>;
@@ -69,36 +78,32 @@ class RayRecords {
         HWY_INLINE InLanes() {}
     };
 
+    /// Stores row k of eight as number k of ray i at place(i).
+    template <class Place>
+    static HWY_INLINE void store_eight(const F* rows, Place&& place);
     /// Stores row k as number k of each ray. `Part`: SlabRay or TriangleFilterRay, sixteen numbers.
     template <class Part>
     HWY_INLINE void store(const F (&rows)[16], Part RayRecord::*part);
-    /// Bits of the rays that meet the box of a child.
+    /// Bits of the rays that meet the box of a child. Sets `entry_` if kHasEntries.
     template <std::size_t W>
-    [[nodiscard]] static HWY_INLINE std::uint32_t meet(const InLanes& ray,
-                                                       const WideNodeOf<W>& node);
+    [[nodiscard]] HWY_INLINE std::uint32_t meet(const InLanes& ray, const WideNodeOf<W>& node);
 
     RayRecord ray_[kRays];
+    alignas(32) float entry_[kRays][kLaneCount];
 };
 
-template <class Part>
-HWY_INLINE void RayRecords::store(const F (&rows)[16], Part RayRecord::*part) {
-    static_assert(sizeof(Part) == 16 * sizeof(float));
-    const auto place = [&](std::size_t ray, std::size_t half) HWY_ATTR {
-        return reinterpret_cast<float*>(&(ray_[ray].*part)) + 8 * half;
-    };
+template <class Place>
+HWY_INLINE void RayRecords::store_eight(const F* rows, Place&& place) {
 #if HWY_CAP_GE512
     const hn::CappedTag<float, 8> eight;
-    HWY_UNROLL(2)
-    for (std::size_t half = 0; half < 2; ++half) {
-        hn::Vec<hn::CappedTag<float, 16>> columns[8];
-        HWY_UNROLL(8)
-        for (std::size_t k = 0; k < 8; ++k) columns[k] = rows[8 * half + k].part[0];
-        transpose_blocks(columns);
-        HWY_UNROLL(8)
-        for (std::size_t i = 0; i < 8; ++i) {
-            hn::Store(hn::LowerHalf(eight, columns[i]), eight, place(i, half));
-            hn::Store(hn::UpperHalf(eight, columns[i]), eight, place(8 + i, half));
-        }
+    hn::Vec<hn::CappedTag<float, 16>> columns[8];
+    HWY_UNROLL(8)
+    for (std::size_t k = 0; k < 8; ++k) columns[k] = rows[k].part[0];
+    transpose_blocks(columns);
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < 8; ++i) {
+        hn::Store(hn::LowerHalf(eight, columns[i]), eight, place(i));
+        hn::Store(hn::UpperHalf(eight, columns[i]), eight, place(8 + i));
     }
 #elif HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
     if constexpr (kSupported) {
@@ -106,35 +111,43 @@ HWY_INLINE void RayRecords::store(const F (&rows)[16], Part RayRecord::*part) {
         const hn::Repartition<double, LaneTag<float, kRays>> pairs;
         HWY_UNROLL(2)
         for (std::size_t part8 = 0; part8 < 2; ++part8) {
+            hn::Vec<LaneTag<float, kRays>> quads[2][4];
             HWY_UNROLL(2)
-            for (std::size_t half = 0; half < 2; ++half) {
-                hn::Vec<LaneTag<float, kRays>> quads[2][4];
-                HWY_UNROLL(2)
-                for (std::size_t h = 0; h < 2; ++h) {
-                    const F* const r = rows + 8 * half + 4 * h;
-                    const auto in_pairs = [&](std::size_t a, std::size_t b, bool upper) HWY_ATTR {
-                        const auto x = r[a].part[part8], y = r[b].part[part8];
-                        return hn::BitCast(pairs, upper ? hn::InterleaveUpper(d, x, y)
-                                                        : hn::InterleaveLower(d, x, y));
-                    };
-                    const auto l01 = in_pairs(0, 1, false), l23 = in_pairs(2, 3, false);
-                    const auto u01 = in_pairs(0, 1, true), u23 = in_pairs(2, 3, true);
-                    quads[h][0] = hn::BitCast(d, hn::InterleaveLower(pairs, l01, l23));
-                    quads[h][1] = hn::BitCast(d, hn::InterleaveUpper(pairs, l01, l23));
-                    quads[h][2] = hn::BitCast(d, hn::InterleaveLower(pairs, u01, u23));
-                    quads[h][3] = hn::BitCast(d, hn::InterleaveUpper(pairs, u01, u23));
-                }
-                HWY_UNROLL(4)
-                for (std::size_t k = 0; k < 4; ++k) {
-                    hn::Store(hn::ConcatLowerLower(d, quads[1][k], quads[0][k]), d,
-                              place(8 * part8 + k, half));
-                    hn::Store(hn::ConcatUpperUpper(d, quads[1][k], quads[0][k]), d,
-                              place(8 * part8 + 4 + k, half));
-                }
+            for (std::size_t h = 0; h < 2; ++h) {
+                const F* const r = rows + 4 * h;
+                const auto in_pairs = [&](std::size_t a, std::size_t b, bool upper) HWY_ATTR {
+                    const auto x = r[a].part[part8], y = r[b].part[part8];
+                    return hn::BitCast(
+                        pairs, upper ? hn::InterleaveUpper(d, x, y) : hn::InterleaveLower(d, x, y));
+                };
+                const auto l01 = in_pairs(0, 1, false), l23 = in_pairs(2, 3, false);
+                const auto u01 = in_pairs(0, 1, true), u23 = in_pairs(2, 3, true);
+                quads[h][0] = hn::BitCast(d, hn::InterleaveLower(pairs, l01, l23));
+                quads[h][1] = hn::BitCast(d, hn::InterleaveUpper(pairs, l01, l23));
+                quads[h][2] = hn::BitCast(d, hn::InterleaveLower(pairs, u01, u23));
+                quads[h][3] = hn::BitCast(d, hn::InterleaveUpper(pairs, u01, u23));
+            }
+            HWY_UNROLL(4)
+            for (std::size_t k = 0; k < 4; ++k) {
+                hn::Store(hn::ConcatLowerLower(d, quads[1][k], quads[0][k]), d,
+                          place(8 * part8 + k));
+                hn::Store(hn::ConcatUpperUpper(d, quads[1][k], quads[0][k]), d,
+                          place(8 * part8 + 4 + k));
             }
         }
     }
 #endif
+}
+
+template <class Part>
+HWY_INLINE void RayRecords::store(const F (&rows)[16], Part RayRecord::*part) {
+    static_assert(sizeof(Part) == 16 * sizeof(float));
+    HWY_UNROLL(2)
+    for (std::size_t half = 0; half < 2; ++half) {
+        store_eight(rows + 8 * half, [&](std::size_t ray) HWY_ATTR {
+            return reinterpret_cast<float*>(&(ray_[ray].*part)) + 8 * half;
+        });
+    }
 }
 
 template <std::size_t W>
@@ -226,6 +239,11 @@ HWY_INLINE std::uint32_t RayRecords::prepare(const LaneFrame& frame, const Dista
 template <std::size_t W>
 HWY_INLINE std::uint32_t RayRecords::meet(const InLanes& ray, const WideNodeOf<W>& node) {
     LaneMask<float, kRays> met = lanes_of_bits<float, kRays>(0);
+    const F never(std::numeric_limits<float>::infinity());
+    F entries[W];
+    if constexpr (kHasEntries<W>) {
+        for (F& entry : entries) entry = never;
+    }
     for (std::size_t i = 0; i < node.child_count(); ++i) {
         F near[3], far[3];
         HWY_UNROLL(3)
@@ -240,9 +258,17 @@ HWY_INLINE std::uint32_t RayRecords::meet(const InLanes& ray, const WideNodeOf<W
             larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], ray.s_min));
         const F exit =
             smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], ray.s_max));
-        met = met | (entry <= exit);
+        const auto here = entry <= exit;
+        if constexpr (kHasEntries<W>) entries[i] = select_lanes(here, entry, never);
+        met = met | here;
     }
-    return bits_of(met);
+    const std::uint32_t bits = bits_of(met);
+    if constexpr (kHasEntries<W>) {
+        if (bits != 0) {
+            store_eight(entries, [&](std::size_t i) HWY_ATTR { return entry_[i]; });
+        }
+    }
+    return bits;
 }
 
 }  // namespace HWY_NAMESPACE
