@@ -9,6 +9,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/geometry/polygon_sets/arrangement.h"
+#include "alhazen/renderers/beam_tracing/beam_cells.h"
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
 #include "alhazen/renderers/beam_tracing/box_index.h"
 #include "alhazen/session/generators/generate.h"
@@ -308,6 +309,23 @@ TEST(BeamScenes, ShadowsOfGlassDivideAPieceUpToALimit) {
     EXPECT_NEAR(sums(some).first / sums(all).first, 1, 1e-6);
     EXPECT_LT(sums(some).second, 1.05 * sums(all).second);
     EXPECT_GT(sums(some).second, 0.1 * sums(all).second);
+}
+
+TEST(BeamScenes, SmallCellsAreNotDivided) {
+    const BeamScenery s = with_depth(floor_under_glass(4), 0);
+    const BeamTree tree = tree_of(s.loaded, whole_window());
+    std::uint32_t most = 0;
+    for (std::uint32_t p = 0; p < tree.pieces.size(); ++p) {
+        if (tree.pieces[p].lights.size() > tree.pieces[most].lights.size()) most = p;
+    }
+    const auto behind = pieces_behind(tree);
+    const std::vector<BeamCell> all = cells_of(tree, behind, most);
+    EXPECT_GE(all.size(), tree.pieces[most].lights.size());
+    const PolygonSet& region = tree.pieces[most].seen.region;
+    const std::vector<BeamCell> one = cells_of(tree, behind, most, {1e9, 1e9});
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one[0].region, region);
+    EXPECT_LT(cells_of(tree, behind, most, {0.9 * kBeamFilm, 0.9 * kBeamFilm}).size(), all.size());
 }
 
 TEST(BoxIndex, FindsAllBoxesThatMeet) {

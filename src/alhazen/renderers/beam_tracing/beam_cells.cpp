@@ -21,8 +21,9 @@ struct CellList {
 /// Divides cells by regions and marks the parts inside.
 class CellDivider {
   public:
-    CellDivider(const BeamTree& tree, const std::vector<std::vector<std::uint32_t>>& behind)
-        : tree_(tree), behind_(behind) {}
+    CellDivider(const BeamTree& tree, const std::vector<std::vector<std::uint32_t>>& behind,
+                const CellLimit& whole)
+        : tree_(tree), behind_(behind), whole_(whole) {}
 
     /// Adds the terms of a piece to the cells that lie in it.
     void add(std::uint32_t piece, CellList& cells) {
@@ -45,6 +46,12 @@ class CellDivider {
             BeamCell& cell = cells.cells[k];
             if (!cell.region.bounds().meets(region.bounds())) continue;
             cut(cell.region, region, cut_);
+            if (is_small(cell.region.bounds())) {
+                if (!(twice_area(cut_.inside) > twice_area(cut_.outside))) continue;
+                inside.push_back(std::move(cell));
+                cell = {};
+                continue;
+            }
             if (!cut_.inside.empty()) inside.push_back({cut_.inside, cell.terms});
             cell.region = cut_.outside;
         }
@@ -63,8 +70,14 @@ class CellDivider {
         }
     }
 
+    [[nodiscard]] bool is_small(const LatticeBox& box) const {
+        return double(box.hi.x) - box.lo.x < whole_.width &&
+               double(box.hi.y) - box.lo.y < whole_.height;
+    }
+
     const BeamTree& tree_;
     const std::vector<std::vector<std::uint32_t>>& behind_;
+    CellLimit whole_;
     PolygonCut cut_;
 };
 
@@ -81,11 +94,11 @@ std::vector<std::vector<std::uint32_t>> pieces_behind(const BeamTree& tree) {
 
 std::vector<BeamCell> cells_of(const BeamTree& tree,
                                const std::vector<std::vector<std::uint32_t>>& behind,
-                               std::uint32_t piece) {
+                               std::uint32_t piece, const CellLimit& whole) {
     const PolygonSet& region = tree.pieces[piece].seen.region;
     CellList list(region.bounds());
     list.add({region, {}});
-    CellDivider(tree, behind).add(piece, list);
+    CellDivider(tree, behind, whole).add(piece, list);
     std::erase_if(list.cells, [](const BeamCell& cell) { return cell.region.empty(); });
     return std::move(list.cells);
 }

@@ -256,13 +256,19 @@ Drawing beam_drawing(const RenderJob& job, const BeamScene& scene, const BeamTre
     drawing.width = options.width;
     drawing.height = options.height;
     const auto behind = pieces_behind(tree);
+    // Of a tree that is not complete a cell of a pixel is not divided.
+    CellLimit whole;
+    if (tree.left_out > 0) {
+        whole = {2 * kBeamFilm / options.width, 2 * kBeamFilm / options.height};
+    }
     std::vector<std::vector<DrawingRegion>> painted(tree.pieces.size());
     constexpr std::size_t kBlock = 32;
     parallel_for(tree.pieces.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         CellPainter painter(job, scene, tree, options);
         for (std::size_t p = begin; p < end; ++p) {
             if (tree.pieces[p].beam != 0 || job.stop_requested()) continue;
-            for (const BeamCell& cell : cells_of(tree, behind, static_cast<std::uint32_t>(p))) {
+            for (const BeamCell& cell :
+                 cells_of(tree, behind, static_cast<std::uint32_t>(p), whole)) {
                 painter.paint(cell, painted[p]);
             }
         }
