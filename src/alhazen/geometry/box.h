@@ -51,13 +51,20 @@ inline constexpr Box3 kAllSpace{{-kInfinity, -kInfinity, -kInfinity},
     return both.empty() ? Box3{} : both;
 }
 
-/// The box enlarged on every side by `relative` times the largest magnitude of a coordinate, a
-/// margin for the rounding errors of its computation.
+/// The box enlarged on every side by `relative` times the largest magnitude of a coordinate along
+/// the same axis that is not infinite, a margin for the rounding errors of its computation.
 [[nodiscard]] inline Box3 padded(const Box3& box, double relative = 8e-16) {
     if (box.empty()) return box;
-    const Vec3 reach{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
-                     std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
-                     std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
+    Vec3 reach{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
+               std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
+               std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
+    if (!box.bounded()) {
+        for (int k = 0; k < 3; ++k) {
+            if (reach[k] < kInfinity) continue;
+            reach[k] = std::min(std::abs(box.lo[k]), std::abs(box.hi[k]));
+            if (!(reach[k] < kInfinity)) reach[k] = 0.0;
+        }
+    }
     const Vec3 pad = relative * reach;
     return {box.lo - pad, box.hi + pad};
 }

@@ -116,8 +116,13 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
     if (!text.empty()) {
         set(loaded, settings_of(text, limits));
         const std::size_t bad = loaded.scene.environment->bad_texels();
-        if (bad == 0) return {};
-        return {"warning: " + of_bad_texels(bad)};
+        std::vector<std::string> lines;
+        if (bad > 0) lines.push_back("warning: " + of_bad_texels(bad));
+        const auto& picture = loaded.description.environment->settings.picture;
+        if (picture && picture->held.are_none()) {
+            lines.push_back("warning: " + text + ": " + kNoPixelsHeld);
+        }
+        return lines;
     }
     const Scene& scene = loaded.scene;
     // In a format without surroundings a glow up to white is a label or a display, not the light.

@@ -1,5 +1,7 @@
 #include "alhazen/session/vector_drawing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "alhazen/imaging/image/encoding.h"
@@ -8,6 +10,16 @@
 #include "alhazen/session/aov_pictures.h"
 
 namespace alhazen {
+
+namespace {
+
+/// Limits that keep the time of a drawing to seconds: about the number of tests of hulls, from
+/// which on mirrors and panes show nothing, and that of the lit parts of a piece for each light,
+/// from which on shadows of transparent facets divide no further.
+constexpr std::uint64_t kMostDrawingTests = 60'000'000;
+constexpr std::size_t kMostDrawnParts = 4096;
+
+}  // namespace
 
 Drawing draw_scene(const LoadedScene& loaded, const RenderOptions& options, DrawingLook look) {
     Scene scene = loaded.scene;
@@ -29,9 +41,17 @@ Drawing draw_scene(const LoadedScene& loaded, const RenderOptions& options, Draw
     Drawing result;
     ThreadLimit(options.threads).run([&] {
         const BeamScene facets = beam_scene(loaded.description, scene);
-        const BeamTree tree = beam_tree(job, facets, window, {});
+        const BeamTree tree =
+            beam_tree(job, facets, window,
+                      {.cast = {.most_parts = kMostDrawnParts}, .most_tests = kMostDrawingTests});
         result = beam_drawing(job, facets, tree, drawing);
         result.notes = facets.notes;
+        if (tree.left_out > 0) {
+            result.notes.push_back(
+                fmt::format("{} of the smallest mirror images and views through transparent facets "
+                            "are left out, with what is behind them",
+                            tree.left_out));
+        }
     });
     const bool linear = scene.conventions.film.linear_output;
     for (int k = 0; k < 3; ++k) {

@@ -2,12 +2,11 @@
 /// open frustum.
 ///
 /// Source: sphere_roots.h, frustum.cpp, box_shape.cpp; the same operations in the same order.
-/// Differs: rare cases (a cone steeper than the line, a line along an axis, numbers out of range)
-/// are left to the scalar version.
-/// Conventions: included once per target (see simd/lanes-inl.h); ignores the limits of the rays.
-/// `unsure` lanes need the scalar version; for the other wanted lanes
-/// entry and exit are bit-identical to the two crossings that `intersect` writes for the whole
-/// line, or there are none.
+/// Differs: rare cases (a cone steeper than the line or very flat, a line along an axis, numbers
+/// out of range) are left to the scalar version. Conventions: included once per target (see
+/// simd/lanes-inl.h); ignores the limits of the rays. `unsure` lanes need the scalar version; for
+/// the other wanted lanes entry and exit are bit-identical to the two crossings that `intersect`
+/// writes for the whole line, or there are none.
 
 #if defined(ALHAZEN_SHAPES_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
@@ -170,7 +169,7 @@ struct FrustumLines {
     HWY_INLINE FrustumLines(const RayLanes& rays, const Frustum& f, std::uint32_t wanted) {
         crossed = 0;
         unsure = wanted;
-        if (!kFusesExactly) return;
+        if (!kFusesExactly || f.is_flat()) return;
         const Vec3Lanes d = load_ray_vectors(rays.direction);
         Vec3Lanes o = load_ray_vectors(rays.origin) - f.center;
         const Doubles zero(0.0);

@@ -58,6 +58,24 @@ TEST(Csg, ADifferenceTurnsTheSurfaceOfWhatIsTakenAway) {
     }
 }
 
+TEST(Csg, TheBoxOfAnIntersectionEndsWhereAHalfSpaceDoes) {
+    SceneMaker maker;
+    maker.material({});
+    const ObjectIndex cap = solid(maker, Combine::Intersection);
+    maker.add(Sphere{}, MaterialId{0}, {}, cap);
+    maker.add(HalfSpace{{0, 0.25, 0}, {0, 1, 0}}, MaterialId{0}, {}, cap);
+    maker.add(HalfSpace{{-0.5, 0, 0}, {-2, 0, 0}}, MaterialId{0}, {}, cap);
+    maker.add(cap);
+    const Box3 box = compiled(maker, kEvaluators[0]).aggregate->box();
+    const Vec3 lo{-0.5, -1, -1}, hi{1, 0.25, 1};
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(box.lo[k], lo[k], 1e-14);
+        EXPECT_NEAR(box.hi[k], hi[k], 1e-14);
+        EXPECT_LE(box.lo[k], lo[k]);
+        EXPECT_GE(box.hi[k], hi[k]);
+    }
+}
+
 TEST(Csg, ARayMayBeginInside) {
     for (const char* evaluator : kEvaluators) {
         SceneMaker maker;

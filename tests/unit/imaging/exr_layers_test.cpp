@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <ImathBox.h>
 #include <ImfChannelList.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineOutputPart.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
@@ -190,6 +192,59 @@ TEST(ExrParts, ThePartWithColoursIsRead) {
               std::pair(4, 3.0f));
     EXPECT_EQ(read({{"Z"}, {"id"}, {"Y", "A"}}), std::pair(2, 3.0f));
     EXPECT_EQ(read({{"Z"}, {"id"}}), std::pair(1, 1.0f));
+}
+
+/// A file of a deep part of colours without samples, and of a flat part after it, of 0.5.
+std::string deep_and_flat(bool flat) {
+    std::vector<Imf::Header> headers(flat ? 2 : 1, Imf::Header(2, 1));
+    headers[0].setName("deep");
+    headers[0].setType(Imf::DEEPSCANLINE);
+    headers[0].compression() = Imf::ZIPS_COMPRESSION;
+    for (Imf::Header& header : headers) {
+        for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::FLOAT);
+    }
+    Written stream;
+    if (flat) {
+        headers[1].setName("flat");
+        headers[1].setType(Imf::SCANLINEIMAGE);
+    }
+    Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()));
+    std::vector<unsigned> counts(2, 0);
+    std::vector<float*> none(2, nullptr);
+    Imf::DeepFrameBuffer deep;
+    deep.insertSampleCountSlice(Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()),
+                                           sizeof(unsigned), 2 * sizeof(unsigned)));
+    for (const char* name : {"R", "G", "B"}) {
+        deep.insert(name, Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(none.data()),
+                                         sizeof(float*), 2 * sizeof(float*), sizeof(float)));
+    }
+    Imf::DeepScanLineOutputPart deep_part(file, 0);
+    deep_part.setFrameBuffer(deep);
+    deep_part.writePixels(1);
+    if (flat) {
+        std::vector<float> values(2, 0.5f);
+        Imf::FrameBuffer frame;
+        for (const char* name : {"R", "G", "B"}) {
+            frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()),
+                                          sizeof(float), 2 * sizeof(float)));
+        }
+        Imf::OutputPart part(file, 1);
+        part.setFrameBuffer(frame);
+        part.writePixels(1);
+    }
+    return stream.bytes;
+}
+
+TEST(ExrParts, AFlatPartIsReadBesideADeepOne) {
+    const Image image = decode_image(deep_and_flat(true), "deep.exr");
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_EQ(image.samples, std::vector<float>(6, 0.5f));
+    try {
+        (void)decode_image(deep_and_flat(false), "deep.exr");
+        ADD_FAILURE() << "a deep picture is read";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("deep EXR"), std::string::npos) << error.what();
+    }
 }
 
 TEST(ExrLayers, TheBeautyIsThatOfAPictureWithoutLayers) {

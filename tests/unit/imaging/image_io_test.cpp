@@ -238,6 +238,19 @@ TEST(ImageIo, AnExrHasTheSizeOfItsDisplayWindow) {
               ErrorKind::Scene);
 }
 
+TEST(ImageIo, AnExrTellsThatNoneOfItsPixelsAreInThePicture) {
+    const Image image = testing::random_image(20, 100, 4, 0.1f, 1, 5);
+    const auto held = [&](const std::array<std::int32_t, 4>& display) {
+        return decode_image(with_windows(image, {0, 0, 19, 99}, display), "a.exr").held;
+    };
+    EXPECT_TRUE(held({30, 0, 40, 10}).are_none());
+    EXPECT_TRUE(held({0, 100, 19, 120}).are_none());
+    EXPECT_FALSE(held({19, 99, 40, 120}).are_none());
+    EXPECT_FALSE(held({0, 0, 19, 99}).are_none());
+    EXPECT_TRUE(stored(decode_image(with_windows(image, {0, 0, 19, 99}, {30, 0, 40, 10}), "a.exr"))
+                    .held.are_none());
+}
+
 TEST(ImageIo, ExrColoursAreMultipliedByAlpha) {
     Image image(2, 1, 4);
     image.samples = {0.5f, 0.25f, 1.0f, 0.25f, 0.5f, 2.0f, 3.0f, 0.0f};

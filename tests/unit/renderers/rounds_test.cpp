@@ -174,6 +174,49 @@ TEST(Rounds, PixelsWithoutNoiseGetFewSamplesAndTheOthersReachTheLimit) {
     EXPECT_LT(std::sqrt(squares / at_edges), 1.3 * kNoise);
 }
 
+/// Stops the work after a number of tiles.
+class StopAfterTiles final : public ProgressSink {
+  public:
+    explicit StopAfterTiles(std::size_t tiles) : tiles_(tiles) {}
+    void update(std::string_view, std::size_t, std::size_t) override {
+        if (++done_ == tiles_) stop.request();
+    }
+    StopFlag stop;
+
+  private:
+    std::size_t tiles_, done_ = 0;
+};
+
+TEST(Rounds, AStoppedRoundCountsWhatItTook) {
+    const Scene scene = ball();
+    constexpr int kTile = 10;
+    constexpr std::size_t kTiles = kWidth * kHeight / (kTile * kTile);
+    for (const bool noise : {false, true}) {
+        // In the first round, and in the second.
+        for (const std::size_t tiles : {std::size_t{3}, kTiles + 2}) {
+            if (!noise && tiles > kTiles) continue;
+            const SamplingPlan plan =
+                plan_of("sobol", "", noise ? std::optional(1e-9) : std::nullopt);
+            StopAfterTiles sink(tiles);
+            const RenderJob job{
+                .scene = scene,
+                .camera = scene.cameras[0].camera,
+                .samples_per_pixel = 64,
+                .sampling = &plan,
+                .control = {
+                    .threads = 1, .tile_size = kTile, .stop = &sink.stop, .progress = &sink}};
+            Film film(kWidth, kHeight, {0, 0, kWidth, kHeight});
+            const RenderReport report = Whitted{}.render(job, film);
+            ASSERT_FALSE(report.complete());
+            const SamplingReport& sampling = *report.sampling;
+            EXPECT_EQ(sampling.samples(), report.counters[RayKind::Eye].cast) << tiles;
+            EXPECT_EQ(sampling.rounds.size(), tiles > kTiles ? 2U : 1U);
+            EXPECT_EQ(sampling.rounds.back().pixels, (tiles % kTiles) * kTile * kTile);
+            EXPECT_EQ(sampling.most_samples, !noise ? 64U : tiles > kTiles ? 16U : 8U);
+        }
+    }
+}
+
 TEST(Rounds, NoRoundBeginsThatWouldEndTooLate) {
     const Scene scene = ball();
     SamplingPlan plan = plan_of("sobol");

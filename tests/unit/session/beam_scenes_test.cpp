@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 
+#include "alhazen/base/file.h"
 #include "alhazen/geometry/polygon_sets/arrangement.h"
+#include "alhazen/renderers/beam_tracing/beam_cells.h"
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
+#include "alhazen/renderers/beam_tracing/box_index.h"
 #include "alhazen/session/generators/generate.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
+#include "support/random.h"
+#include "support/scratch_folder.h"
 #include "support/test_data.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -58,13 +65,14 @@ BeamScenery mirror_gears() {
     return with_depth(load(std::move(d), {}), 3);
 }
 
-BeamTree tree_of(const LoadedScene& loaded, const PolygonSet& window) {
+BeamTree tree_of(const LoadedScene& loaded, const PolygonSet& window,
+                 const BeamTreeOptions& options = {}) {
     const Scene& scene = loaded.scene;
     const RenderJob job{
         .scene = scene,
         .camera = with_aspect(scene.cameras[0].camera, scene.cameras[0].aspect, 4.0 / 3.0),
         .description = &loaded.description};
-    return beam_tree(job, beam_scene(loaded.description, scene), window, {});
+    return beam_tree(job, beam_scene(loaded.description, scene), window, options);
 }
 
 bool overlap(const PolygonSet& a, const PolygonSet& b) {
@@ -199,6 +207,155 @@ TEST(BeamScenes, ACityOfTenThousandPolygonsAddsUpExactlyAndIsAsRaysSeeIt) {
 
 TEST(BeamScenes, GearsAddUpExactlyAndAreAsRaysSeeThem) {
     expect_as_rays(mirror_gears(), 0);
+}
+
+PolygonSet whole_window() {
+    const auto limit = static_cast<std::int32_t>(kBeamFilm);
+    return lattice_rectangle({-limit, -limit}, {limit, limit});
+}
+
+TEST(BeamScenes, ALimitOfTestsLeavesOutTheSmallestMirrorImages) {
+    const BeamScenery hall = from_file("beams/mirror_hall.alhazen", 5);
+    const BeamTree all = tree_of(hall.loaded, whole_window());
+    EXPECT_EQ(all.left_out, 0u);
+    const auto tests = [](const BeamTree& tree) {
+        return tree.counts.seen.hulls + tree.counts.shadow.hulls;
+    };
+    // A limit above the number of tests changes nothing.
+    const BeamTree same = tree_of(hall.loaded, whole_window(), {.most_tests = 10 * tests(all)});
+    EXPECT_EQ(same.left_out, 0u);
+    EXPECT_EQ(same.pieces.size(), all.pieces.size());
+    // The beams that remain are the largest of the first generation that loses some.
+    const auto weights = [](const BeamTree& tree, int depth) {
+        std::vector<double> found;
+        for (const BeamNode& node : tree.beams) {
+            if (depth == 0 || node.depth != depth) continue;
+            found.push_back(double(twice_area(tree.pieces[node.piece].seen.region)) *
+                            node.contribution.max());
+        }
+        std::ranges::sort(found, std::greater{});
+        return found;
+    };
+    int parted = 0;
+    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
+        const auto most = static_cast<std::uint64_t>(share * double(tests(all)));
+        const BeamTree some = tree_of(hall.loaded, whole_window(), {.most_tests = most});
+        EXPECT_GT(some.left_out, 0u) << share;
+        EXPECT_LT(some.beams.size(), all.beams.size()) << share;
+        EXPECT_LT(tests(some), tests(all)) << share;
+        int depth = 1;
+        while (weights(some, depth).size() == weights(all, depth).size()) ++depth;
+        const std::vector<double> kept = weights(some, depth);
+        std::vector<double> largest = weights(all, depth);
+        ASSERT_LT(kept.size(), largest.size()) << share;
+        largest.resize(kept.size());
+        EXPECT_EQ(kept, largest) << share;
+        parted += !kept.empty();
+    }
+    EXPECT_GT(parted, 0);
+}
+
+/// A floor under `count` x `count` squares of glass, which overlap, in the light of the sun.
+LoadedScene floor_under_glass(int count) {
+    std::string text =
+        "alhazen 1\npicture { width = 64; height = 64; up_axis = z }\n"
+        "perspective_camera \"main\" { eye = (0, -9, 1); look_at = (0, 0, 0); up = (0, 0, 1); "
+        "fov_deg "
+        "= 40 }\n"
+        "directional_light { to_light = (0, 0, 1); color = (1, 1, 1) }\n"
+        "material \"glass\" { transmissive = (0.5, 0.8, 0.9) }\n"
+        "rectangle { corner = (-4, -4, 0); edge_u = (8, 0, 0); edge_v = (0, 8, 0) }\n";
+    for (int i = 0; i < count; ++i) {
+        for (int j = 0; j < count; ++j) {
+            text += "rectangle { corner = (" + std::to_string(-3 + 5.0 * i / count) + ", " +
+                    std::to_string(-3 + 5.0 * j / count) + ", " +
+                    std::to_string(3 + 0.01 * (i * count + j)) + "); edge_u = (" +
+                    std::to_string(8.0 / count) + ", 0, 0); edge_v = (0, " +
+                    std::to_string(8.0 / count) + ", 0); material = \"glass\" }\n";
+        }
+    }
+    const testing::ScratchFolder folder;
+    const std::filesystem::path path = folder.path() / "glass.alhazen";
+    write_file_atomically(path, std::as_bytes(std::span(text)));
+    return load(path);
+}
+
+TEST(BeamScenes, ShadowsOfGlassDivideAPieceUpToALimit) {
+    const BeamScenery s = with_depth(floor_under_glass(16), 0);
+    const auto parts_of = [](const BeamTree& tree) {
+        std::size_t most = 0;
+        for (const BeamPiece& piece : tree.pieces) most = std::max(most, piece.lights.size());
+        return most;
+    };
+    const BeamTree all = tree_of(s.loaded, whole_window());
+    ASSERT_GT(parts_of(all), 700u);
+    const BeamTree same = tree_of(s.loaded, whole_window(), {.cast = {.most_parts = 100'000}});
+    EXPECT_EQ(parts_of(same), parts_of(all));
+    const BeamTree some = tree_of(s.loaded, whole_window(), {.cast = {.most_parts = 100}});
+    EXPECT_GE(parts_of(some), 100u);
+    EXPECT_LT(parts_of(some), 110u);
+    // The parts still make up the piece; none is behind more glass than there is.
+    const auto sums = [](const BeamTree& tree) {
+        std::pair<double, double> sum{0, 0};
+        for (const BeamPiece& piece : tree.pieces) {
+            for (const BeamLight& light : piece.lights) {
+                const auto area = static_cast<double>(twice_area(light.part.region));
+                sum.first += area;
+                sum.second += area * double(light.part.through.size());
+            }
+        }
+        return sum;
+    };
+    EXPECT_NEAR(sums(some).first / sums(all).first, 1, 1e-6);
+    EXPECT_LT(sums(some).second, 1.05 * sums(all).second);
+    EXPECT_GT(sums(some).second, 0.1 * sums(all).second);
+}
+
+TEST(BeamScenes, SmallCellsAreNotDivided) {
+    const BeamScenery s = with_depth(floor_under_glass(4), 0);
+    const BeamTree tree = tree_of(s.loaded, whole_window());
+    std::uint32_t most = 0;
+    for (std::uint32_t p = 0; p < tree.pieces.size(); ++p) {
+        if (tree.pieces[p].lights.size() > tree.pieces[most].lights.size()) most = p;
+    }
+    const auto behind = pieces_behind(tree);
+    const std::vector<BeamCell> all = cells_of(tree, behind, most);
+    EXPECT_GE(all.size(), tree.pieces[most].lights.size());
+    const PolygonSet& region = tree.pieces[most].seen.region;
+    const std::vector<BeamCell> one = cells_of(tree, behind, most, {1e9, 1e9});
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one[0].region, region);
+    EXPECT_LT(cells_of(tree, behind, most, {0.9 * kBeamFilm, 0.9 * kBeamFilm}).size(), all.size());
+}
+
+TEST(BoxIndex, FindsAllBoxesThatMeet) {
+    testing::Random random(5);
+    BoxIndex index;
+    for (const int count : {0, 1, 512, 513, 2000}) {
+        const LatticeBox whole{{-1000, -2000}, {3000, 2000}};
+        index.reset(whole);
+        std::vector<LatticeBox> boxes;
+        const auto box = [&] {
+            const LatticePoint lo{-1200 + random.below(4000), -2200 + random.below(4000)};
+            return LatticeBox{lo, {lo.x + random.below(300), lo.y + random.below(100)}};
+        };
+        for (int k = 0; k < count; ++k) {
+            boxes.push_back(box());
+            index.add(boxes.back());
+        }
+        for (int k = 0; k < 100; ++k) {
+            const LatticeBox query = box();
+            const auto found = index.near(query);
+            EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+            for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+                if (!boxes[i].meets(query)) continue;
+                EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i)) << count << ' ' << k;
+            }
+            if (count == 2000) {
+                EXPECT_LT(found.size(), 300u);
+            }
+        }
+    }
 }
 
 }  // namespace

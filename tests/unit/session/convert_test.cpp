@@ -452,6 +452,25 @@ TEST(ConvertMeshes, AnObjTellsWhatItLosesOfVertices) {
                  Error);
 }
 
+TEST(ConvertMeshes, AnObjTellsThatItsNormalsAreUnit) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    TriangleMesh mesh = testing::tetrahedron();
+    mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+    mesh.normals[1] = {0.6, 0.8, 0};
+    const MaterialId plain = maker.material({.name = "plain"});
+    const MeshIndex index = maker.mesh(mesh);
+    maker.add(index, plain, Affine::scale({2, 2, 2}));
+    EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "a.obj")).empty());
+    maker.add(index, plain, Affine::scale({1, 1, 3}));
+    const ConvertReport report = convert(maker.description(), folder.path() / "b.obj");
+    EXPECT_EQ(report.unit_normals, 1U);
+    ASSERT_EQ(losses_of(report).size(), 1U);
+    EXPECT_NE(losses_of(report)[0].find("those of 1 mesh are made unit"), std::string::npos)
+        << losses_of(report)[0];
+    EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "b.ply")).empty());
+}
+
 TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
     const ScratchFolder folder;
     const auto scene = folder.write(

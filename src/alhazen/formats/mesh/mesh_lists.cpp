@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "alhazen/math/unit_vector.h"
+
 namespace alhazen {
 
 namespace {
@@ -95,13 +97,13 @@ bool read_normals(TextNode list, std::string_view what, const ValueReader& value
     if (!has_one_per_vertex(list, what, mesh.positions.size(), values)) return false;
     auto value = list.begin();
     for (Vec3& normal : normals) {
-        const double size = length(normal);
-        if (!(size > 0) || !std::isfinite(size)) {
+        const Vec3 unit = unit_or(normal, {});
+        if (unit == Vec3{}) {
             values.diagnostics.error((*value).location(),
                                      std::string(what) + ": a normal must have a direction");
             return false;
         }
-        if (lengths == NormalLengths::Unit) normal = normal / size;
+        if (lengths == NormalLengths::Unit) normal = unit;
         ++value;
     }
     mesh.normals = std::move(normals);

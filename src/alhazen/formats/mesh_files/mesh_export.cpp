@@ -4,7 +4,10 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 
 #include "alhazen/formats/mesh_files/mesh_export_text.h"
 #include "alhazen/imaging/image/encoding.h"
@@ -25,11 +28,27 @@ std::array<std::uint32_t, 3> placed(const std::array<std::uint32_t, 3>& t, bool 
     return mirrored ? std::array{t[0], t[2], t[1]} : t;
 }
 
-/// The normal of a placed mesh; zero if it has no direction.
+/// The unit normal of a placed mesh; zero if it has no direction.
 Vec3 placed_normal(const Mat3& mesh_from_file, const Vec3& normal) {
-    const Vec3 n = transpose_times(mesh_from_file, normal);
-    const double size = length(n);
-    return size > 0.0 && std::isfinite(size) ? n / size : Vec3{};
+    return unit_or(transpose_times(mesh_from_file, normal), {});
+}
+
+/// The reciprocal of the greatest length of the normals of a placed mesh; nothing if all have one
+/// length, within rounding, or none has a length in the range of doubles.
+std::optional<double> common_factor(const NamedMesh& from) {
+    constexpr double kSameLength = 1e-9;
+    const Mat3 mesh_from_file = inverse(from.placement.linear);
+    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+    for (const Vec3& normal : from.mesh->normals) {
+        const Vec3 n = transpose_times(mesh_from_file, normal);
+        const double size = std::hypot(n.x, n.y, n.z);
+        if (!(size > 0.0) || !std::isfinite(size)) continue;
+        least = std::min(least, size);
+        greatest = std::max(greatest, size);
+    }
+    const double factor = 1.0 / greatest;
+    if (!(least < (1.0 - kSameLength) * greatest) || !std::isfinite(factor)) return std::nullopt;
+    return factor;
 }
 
 // --- Many meshes as one.
@@ -46,14 +65,11 @@ VertexTangent placed_tangent(const Affine& placement, bool mirrored, const Verte
 }
 
 /// Adds one vertex of a placed mesh.
-void add_vertex(const NamedMesh& from, const Mat3& mesh_from_file, std::uint32_t i,
-                const Arrays& arrays, const Vec3& flat_normal, TriangleMesh& out) {
+void add_vertex(const NamedMesh& from, std::uint32_t i, const Arrays& arrays, const Vec3& normal,
+                TriangleMesh& out) {
     const TriangleMesh& mesh = *from.mesh;
     out.positions.push_back(from.placement.point(mesh.positions[i]));
-    if (arrays.normals) {
-        out.normals.push_back(
-            mesh.normals.empty() ? flat_normal : placed_normal(mesh_from_file, mesh.normals[i]));
-    }
+    if (arrays.normals) out.normals.push_back(normal);
     if (arrays.uvs) out.uvs.push_back(mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
     if (arrays.uvs2) out.uvs2.push_back(mesh.uvs2.empty() ? Vec2{} : mesh.uvs2[i]);
     if (arrays.colors) out.colors.push_back(mesh.colors.empty() ? VertexColor{} : mesh.colors[i]);
@@ -68,9 +84,15 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
     const Mat3 mesh_from_file = inverse(from.placement.linear);
     const bool mirrored = mirrors(from.placement);
     if (!arrays.normals || !mesh.normals.empty()) {
+        const std::optional<double> factor = common_factor(from);
         const std::uint32_t first = std::uint32_t(out.positions.size());
         for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
-            add_vertex(from, mesh_from_file, i, arrays, {}, out);
+            Vec3 normal;
+            if (arrays.normals) {
+                normal = factor ? *factor * transpose_times(mesh_from_file, mesh.normals[i])
+                                : placed_normal(mesh_from_file, mesh.normals[i]);
+            }
+            add_vertex(from, i, arrays, is_finite(normal) ? normal : Vec3{}, out);
         }
         for (const auto& t : mesh.triangles) {
             const auto [a, b, c] = placed(t, mirrored);
@@ -85,7 +107,7 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
         const Vec3 normal = placed_normal(
             mesh_from_file, cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p));
         for (const std::uint32_t i : placed(t, mirrored)) {
-            add_vertex(from, mesh_from_file, i, arrays, normal, out);
+            add_vertex(from, i, arrays, normal, out);
         }
         out.triangles.push_back({first, first + 1, first + 2});
     }
@@ -242,6 +264,12 @@ std::uint64_t meshes_with_colors_beyond_one(std::span<const NamedMesh> meshes) {
     return meshes_with_color(meshes, [](const VertexColor& c) {
         return std::min({c.r, c.g, c.b}) < 0.0f || std::max({c.r, c.g, c.b}) > 1.0f;
     });
+}
+
+std::uint64_t meshes_with_normals_of_several_lengths(std::span<const NamedMesh> meshes) {
+    return std::uint64_t(std::count_if(meshes.begin(), meshes.end(), [](const NamedMesh& from) {
+        return common_factor(from).has_value();
+    }));
 }
 
 std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes) {

@@ -5,7 +5,9 @@
 /// format permits: PLY uses float for arrays whose values are floats, otherwise double; OBJ uses
 /// the shortest decimals that read back equal; STL has floats only, so positions are rounded.
 /// Placements apply to positions, normals and tangents; a mirroring placement also reverses the
-/// triangle orientation, so that the outside stays outside. Property names:
+/// triangle orientation, so that the outside stays outside. The lengths of placed normals are the
+/// weights of their interpolation: PLY keeps their ratios in each mesh, the normals of an OBJ are
+/// unit. Property names:
 /// docs/reference/formats/ply.md.
 
 #include <cstdint>
@@ -45,6 +47,9 @@ struct NamedMesh {
 /// The number of meshes whose vertex colours have an alpha below 1, or a channel beyond 0 to 1.
 [[nodiscard]] std::uint64_t meshes_with_vertex_alpha(std::span<const NamedMesh> meshes);
 [[nodiscard]] std::uint64_t meshes_with_colors_beyond_one(std::span<const NamedMesh> meshes);
+/// The number of meshes whose placed normals differ in length, by more than rounding.
+[[nodiscard]] std::uint64_t meshes_with_normals_of_several_lengths(
+    std::span<const NamedMesh> meshes);
 /// The number of faces between vertices of different materials.
 [[nodiscard]] std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes);
 

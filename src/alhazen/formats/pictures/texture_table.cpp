@@ -63,6 +63,7 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
             diagnostics_.note_file(path);
             picture->image =
                 decoded([&](const ImageLimits& limits) { return read_stored_image(path, limits); });
+            warn_of_nothing(*picture->image, where);
         }
     } catch (const ImageMemoryExceeded&) {
         throw TotalExceeded(limits_, file);
@@ -70,6 +71,12 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
         report(where, error);
     }
     return use(*picture, settings, std::move(name), where);
+}
+
+void TextureTable::warn_of_nothing(const StoredImage& picture, const FileLocation& where) {
+    if (picture.held.are_none()) {
+        diagnostics_.warning(where, std::string("texture: ") + kNoPixelsHeld);
+    }
 }
 
 void TextureTable::report(const FileLocation& where, const Error& error) {
@@ -90,6 +97,7 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const Image
             entry->second.image = decoded([&](const ImageLimits& limits) {
                 return decode_stored_image(encoded, name, limits);
             });
+            warn_of_nothing(*entry->second.image, where);
         }
     } catch (const ImageMemoryExceeded&) {
         throw TotalExceeded(limits_, name);

@@ -55,6 +55,8 @@ class TextureTable {
     /// Reports a picture that cannot be read; throws for one beyond a limit, which ends the import
     /// (exit status 5).
     void report(const FileLocation& where, const Error& error);
+    /// Warns of a picture without pixels in its display window.
+    void warn_of_nothing(const StoredImage& picture, const FileLocation& where);
     struct Picture {
         std::shared_ptr<const StoredImage> image;  ///< null if unreadable
         /// True if the mip levels of the stored samples [0] or of the decoded samples [1] are

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "alhazen/base/interruption.h"
@@ -48,6 +49,7 @@ class BodyReader {
             }
             if (!good) return {};
         }
+        end_ = values_;
         for (const auto& [element, start] : early) {
             if (!has_vertices) break;
             values_ = start;
@@ -260,6 +262,17 @@ class BodyReader {
         return false;
     }
 
+    /// Warns of data after the last element; `end_` is where that ends.
+    void report_surplus() {
+        const std::size_t surplus = end_->surplus_bytes();
+        if (surplus == 0) return;
+        diagnostics_.warning(end_->location(file_),
+                             std::to_string(surplus) +
+                                 (surplus == 1 ? " byte follows" : " bytes follow") +
+                                 " the last element of the header, and " +
+                                 (surplus == 1 ? "is" : "are") + " ignored");
+    }
+
     TriangleMesh finish(bool has_vertices) {
         const FileLocation whole{file_, 0, 0};
         if (!has_vertices) {
@@ -270,12 +283,14 @@ class BodyReader {
             diagnostics_.warning(whole, std::to_string(small_faces_) +
                                             " faces with fewer than three vertices are ignored");
         }
+        report_surplus();
         if (!header_.exact) make_normals_unit(mesh_);
         return std::move(mesh_);
     }
 
     const PlyHeader& header_;
     Values values_;
+    std::optional<Values> end_;  ///< after the last element
     const std::string& file_;
     const ImportOptions& options_;
     Diagnostics& diagnostics_;

@@ -31,6 +31,11 @@ class AsciiValues {
         return cursor_.skip_to_word();
     }
     [[nodiscard]] std::size_t bytes_left() const { return cursor_.bytes_left() + 1; }
+    /// Bytes from the next word on.
+    [[nodiscard]] std::size_t surplus_bytes() const {
+        TextCursor next = cursor_;
+        return next.skip_to_word() ? next.bytes_left() : 0;
+    }
     /// Location of the next value.
     [[nodiscard]] FileLocation location(const std::string& file) const {
         TextCursor next = cursor_;
@@ -82,6 +87,7 @@ class BinaryValues {
     /// Cannot recover: the start of the next item is unknown.
     static bool recover() { return false; }
     [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
+    [[nodiscard]] std::size_t surplus_bytes() const { return rest_.size(); }
     [[nodiscard]] FileLocation location(const std::string& file) const { return {file, 0, 0}; }
     [[nodiscard]] std::string found() const { return "the end of the file"; }
 

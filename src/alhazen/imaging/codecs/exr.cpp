@@ -54,10 +54,13 @@ class MemoryInput final : public Imf::IStream {
     std::size_t position_ = 0;
 };
 
-/// The first part with colours, else the first with a luminance, else the first.
-int part_to_read(const Imf::MultiPartInputFile& file) {
+/// Of the parts that are not deep: the first with colours, else the first with a luminance, else
+/// the first.
+int part_to_read(const Imf::MultiPartInputFile& file, const ExrHeader& checked) {
+    const auto is_deep = [&](int part) { return checked.parts.at(std::size_t(part)).deep; };
     const auto first_with = [&](std::initializer_list<const char*> channels) {
         for (int part = 0; part < file.parts(); ++part) {
+            if (is_deep(part)) continue;
             const Imf::ChannelList& list = file.header(part).channels();
             for (const char* channel : channels) {
                 if (list.findChannel(channel) != nullptr) return part;
@@ -66,7 +69,10 @@ int part_to_read(const Imf::MultiPartInputFile& file) {
         return -1;
     };
     if (const int colours = first_with({"R", "G", "B"}); colours >= 0) return colours;
-    return std::max(first_with({"Y"}), 0);
+    if (const int luminance = first_with({"Y"}); luminance >= 0) return luminance;
+    int flat = 0;
+    while (is_deep(flat)) ++flat;
+    return flat;
 }
 
 std::vector<std::string> channel_names(const Imf::ChannelList& list, const std::string& name) {
@@ -149,7 +155,7 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
                const ImageLimits& limits) {
     MemoryInput stream(header.bytes, bytes, name);
     Imf::MultiPartInputFile parts(stream, 0);
-    const int number = part_to_read(parts);
+    const int number = part_to_read(parts, header);
     const ExrPart& checked = header.parts.at(std::size_t(number));
     Imf::InputPart file(parts, number);
     const Imath::Box2i window = file.header().dataWindow();
@@ -178,7 +184,11 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
     image.associated = image.channels == 2 || image.channels == 4;
     if (held.width > 0) read_bands(file, channels, checked.display, held, image);
     image.samples.resize(std::size_t(width) * std::size_t(height) * channels.size());
-    if (held.width < image.width || held.height < image.height) image.held = held;
+    if (held.width == 0) {
+        image.held = HeldPixels::none();
+    } else if (held.width < image.width || held.height < image.height) {
+        image.held = held;
+    }
     return image;
 }
 

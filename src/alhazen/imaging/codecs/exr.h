@@ -2,8 +2,9 @@
 /// Reads and writes OpenEXR, half and float, with the OpenEXR library.
 ///
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009.
-/// Differs: reads flat images only: the first part of a multi-part file; R, G, B (A), or Y (A), or
-/// a single channel of any name. Refuses luminance with chroma and subsampled channels.
+/// Differs: reads flat images only: of a multi-part file the first flat part with colours; R, G, B
+/// (A), or Y (A), or a single channel of any name. Refuses luminance with chroma and subsampled
+/// channels.
 /// Conventions: the image has the size of the display window; data outside of it are dropped,
 /// pixels outside of the data window are 0 (Image::held). Colours are associated with alpha and
 /// read and written as they are. A missing channel of R, G, B is 0. Written files are

@@ -32,6 +32,7 @@ struct PartHeader {
     bool has_window = false;
     std::uint8_t compression = 0;
     std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: scan lines
+    bool deep = false;
 };
 
 /// [compression] Number of rows that are compressed together.
@@ -134,8 +135,8 @@ void read_value(std::string_view attribute, ByteReader value, PartHeader& part) 
         read_tiles(value, part);
     } else if (attribute == "compression") {
         part.compression = value.u8();
-    } else if (attribute == "type" && value.take(value.left()).starts_with("deep")) {
-        bad_image(value.name(), "deep EXR pictures are not supported");
+    } else if (attribute == "type") {
+        part.deep = value.take(value.left()).starts_with("deep");
     }
 }
 
@@ -190,16 +191,20 @@ ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
     if ((version & 0xff) != 2 || (version & ~(kKnownFlags | 0xffu)) != 0) {
         bad_image(name, "EXR of an unknown version or kind");
     }
-    if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
     std::vector<std::string_view> ignored;
     std::vector<ExrPart> parts;
     for (PartHeader part; read_part(reader, ignored, limits, part); part = {}) {
-        parts.push_back({part.display.value_or(part.data), decoder_bytes(part)});
+        parts.push_back({part.display.value_or(part.data), decoder_bytes(part), part.deep});
         check_image_memory(parts.back().decoder_bytes, limits, name);
         if ((version & kMultiPartFlag) == 0) break;
         if (parts.size() > kMaxParts) bad_image(name, "damaged EXR: too many parts");
     }
     if (parts.empty()) bad_image(name, "damaged EXR: the header is empty");
+    // A single part is deep by the flag, too.
+    const bool deep_flag = (version & (kDeepFlag | kMultiPartFlag)) == kDeepFlag;
+    if (deep_flag || std::all_of(parts.begin(), parts.end(), [](auto& p) { return p.deep; })) {
+        bad_image(name, "deep EXR pictures are not supported");
+    }
     std::string header(bytes.substr(0, reader.position()));
     for (const std::string_view type : ignored) {
         header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');

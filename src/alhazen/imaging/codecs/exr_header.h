@@ -28,6 +28,7 @@ struct ExrPart {
     /// Upper bound of the library's allocations for decoding it: a run of rows or a tile (packed,
     /// unpacked and being unpacked), and a row of tiles.
     std::uint64_t decoder_bytes = 0;
+    bool deep = false;  ///< has any number of samples per pixel; not decoded
 };
 
 struct ExrHeader {
@@ -37,7 +38,7 @@ struct ExrHeader {
 
 /// The start of the file up to the end of the header. Attributes that decoding does not need get an
 /// unknown type: the library would allocate by lengths stored inside some of them. Throws Error:
-/// Scene if the header is malformed or of deep data, Resource if a size exceeds the limits.
+/// Scene if the header is malformed or all parts are deep, Resource if a size exceeds the limits.
 [[nodiscard]] ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
                                            const ImageLimits& limits);
 

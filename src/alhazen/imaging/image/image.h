@@ -13,10 +13,16 @@
 namespace alhazen {
 
 /// The pixels that a file holds of a picture whose other pixels are 0: the data window of an EXR
-/// inside its display window. Empty: it holds all.
+/// inside its display window. Of size 0: it holds all.
 struct HeldPixels {
     int x0 = 0, y0 = 0, width = 0, height = 0;
+
+    /// Of a file whose data window lies outside of its display window.
+    [[nodiscard]] static constexpr HeldPixels none() { return {0, 0, -1, -1}; }
+    [[nodiscard]] bool are_none() const { return width < 0; }
 };
+inline constexpr const char* kNoPixelsHeld =
+    "the data window of the file lies outside of its display window: all pixels are 0";
 
 struct Image {
     int width = 0, height = 0;
@@ -48,10 +54,10 @@ struct Image {
     }
 };
 
-/// The pixels that the file held; the image itself if it held all.
+/// The pixels that the file held; the image itself if it held all or none.
 [[nodiscard]] inline Image held_part(const Image& image) {
     const HeldPixels& held = image.held;
-    if (held.width == 0) return image;
+    if (held.width <= 0) return image;
     Image part(held.width, held.height, image.channels);
     part.linear = image.linear;
     part.associated = image.associated;

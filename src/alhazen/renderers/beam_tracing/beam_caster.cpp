@@ -279,9 +279,12 @@ std::vector<LitPart> BeamCaster::lit(const BeamView& view, const SeenFacet& piec
     }
     std::vector<LitPart> parts;
     parts.push_back({piece.region, {}});
+    part_boxes_.reset(piece.region.bounds());
+    part_boxes_.add(piece.region.bounds());
+    lit_parts_ = 1;
     set_sides(projection, piece.region);
     FacetWalk walk(scene_.tree, light, options_.hulls);
-    while (!parts.empty()) {
+    while (lit_parts_ > 0) {
         const std::span<const FacetPiece> pieces = walk.next(sides_, counts_.shadow);
         if (pieces.empty()) break;
         for (const FacetPiece& occluder : pieces) {
@@ -295,24 +298,32 @@ std::vector<LitPart> BeamCaster::lit(const BeamView& view, const SeenFacet& piec
             darken(shape_, occluder.facet, opaque || facet.blocks_light, parts);
         }
     }
+    std::erase_if(parts, [](const LitPart& part) { return part.region.empty(); });
     return parts;
 }
 
 void BeamCaster::darken(const PolygonSet& shadow, std::uint32_t facet, bool opaque,
                         std::vector<LitPart>& parts) {
-    const std::size_t count = parts.size();
-    for (std::size_t k = 0; k < count; ++k) {
+    const bool divides = opaque || options_.most_parts == 0 || lit_parts_ < options_.most_parts;
+    for (const std::uint32_t k : part_boxes_.near(shadow.bounds())) {
         if (!shadow.bounds().meets(parts[k].region.bounds())) continue;
         ++counts_.cuts;
         cut(parts[k].region, shadow, cut_);
         if (cut_.inside.empty()) continue;
+        if (!divides) {
+            const bool most = twice_area(cut_.inside) > twice_area(cut_.outside);
+            if (most) parts[k].through.push_back(facet);
+            continue;
+        }
         parts[k].region = std::move(cut_.outside);
+        if (parts[k].region.empty()) --lit_parts_;
         if (opaque) continue;
         LitPart tinted{std::move(cut_.inside), parts[k].through};
         tinted.through.push_back(facet);
+        part_boxes_.add(tinted.region.bounds());
         parts.push_back(std::move(tinted));
+        ++lit_parts_;
     }
-    std::erase_if(parts, [](const LitPart& part) { return part.region.empty(); });
 }
 
 }  // namespace alhazen

@@ -19,6 +19,7 @@
 #include "alhazen/geometry/polygon_sets/set_operations.h"
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/renderers/beam_tracing/beam_scene.h"
+#include "alhazen/renderers/beam_tracing/box_index.h"
 
 namespace alhazen {
 
@@ -59,6 +60,9 @@ struct BeamCounts {
 struct BeamCastOptions {
     bool hulls = true;  ///< prune subtrees whose hull the beam misses
     bool tree = true;   ///< false: each beam sorts all polygons by depth
+    /// Number of lit parts of a piece from which on shadows of transparent facets do not divide
+    /// them: a part that is mostly in such a shadow is behind the facet as a whole. 0: no limit.
+    std::size_t most_parts = 0;
 };
 
 class BeamCaster {
@@ -104,6 +108,7 @@ class BeamCaster {
     void take_slivers(PolygonCut& parts);
     /// Moves a half of a region with many corners to the end of `waiting`.
     void divide(Rest& rest, std::vector<Rest>& waiting);
+    /// Cuts a shadow out of `parts`, which may become empty; `part_boxes_` has their boxes.
     void darken(const PolygonSet& shadow, std::uint32_t facet, bool opaque,
                 std::vector<LitPart>& parts);
 
@@ -119,6 +124,8 @@ class BeamCaster {
     PolygonSet shape_;
     PolygonCut cut_;
     std::vector<PolygonSet> parts_;
+    BoxIndex part_boxes_;
+    std::size_t lit_parts_ = 0;  ///< parts that are not empty
 };
 
 }  // namespace alhazen

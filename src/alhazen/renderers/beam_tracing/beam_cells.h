@@ -4,7 +4,6 @@
 /// Conventions: the cells are those of a piece that the eye sees, divided by mirrored and refracted
 /// pieces and by the parts that lights reach. The colour of a point is the sum of the terms of its
 /// cell.
-/// that lights reach, divide it. The colour of a point is the sum of the terms of its cell.
 
 #include <vector>
 
@@ -26,9 +25,14 @@ struct BeamCell {
 /// [piece] the pieces seen by beams that left it.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> pieces_behind(const BeamTree& tree);
 
+/// Cells narrower and lower than this are not divided: a cell is in a region that has most of it.
+struct CellLimit {
+    double width = 0, height = 0;  ///< lattice units
+};
+
 /// The cells of a piece that the eye sees.
 [[nodiscard]] std::vector<BeamCell> cells_of(const BeamTree& tree,
                                              const std::vector<std::vector<std::uint32_t>>& behind,
-                                             std::uint32_t piece);
+                                             std::uint32_t piece, const CellLimit& whole = {});
 
 }  // namespace alhazen

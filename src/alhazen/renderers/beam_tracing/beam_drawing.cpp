@@ -19,6 +19,8 @@ constexpr double kLeastSide = 4;
 /// Number of points along a side of the grid, and triangles, at which a region is shaded.
 constexpr int kGrid = 5;
 constexpr std::size_t kMostTriangles = 48;
+/// Triangles at which a region that is not divided is shaded if the tree is not complete.
+constexpr std::size_t kFewTriangles = 4;
 
 /// Maps the window to the picture.
 class ToPicture {
@@ -137,8 +139,22 @@ class CellPainter {
         paint({halves.outside, cell.terms}, features, regions);
     }
 
+    /// Shades the middles of a few triangles.
+    void shade_middles(const BeamCell& cell) {
+        const std::vector<LatticeTriangle> triangles = triangulate(cell.region);
+        const std::size_t step = triangles.size() / kFewTriangles + 1;
+        for (std::size_t t = 0; t < triangles.size(); t += step) {
+            Vec2 middle;
+            for (const LatticePoint& p : triangles[t]) {
+                middle = middle + (1.0 / 3.0) * Vec2{double(p.x), double(p.y)};
+            }
+            add(cell, middle);
+        }
+    }
+
     void shade_points(const BeamCell& cell, std::span<const Vec2> features) {
         points_.clear();
+        if (tree_.left_out > 0 && !is_large(cell.region)) return shade_middles(cell);
         const std::vector<LatticeTriangle> triangles = triangulate(cell.region);
         const std::size_t step = triangles.size() / kMostTriangles + 1;
         for (std::size_t t = 0; t < triangles.size(); t += step) {
@@ -240,13 +256,19 @@ Drawing beam_drawing(const RenderJob& job, const BeamScene& scene, const BeamTre
     drawing.width = options.width;
     drawing.height = options.height;
     const auto behind = pieces_behind(tree);
+    // Of a tree that is not complete a cell of a pixel is not divided.
+    CellLimit whole;
+    if (tree.left_out > 0) {
+        whole = {2 * kBeamFilm / options.width, 2 * kBeamFilm / options.height};
+    }
     std::vector<std::vector<DrawingRegion>> painted(tree.pieces.size());
     constexpr std::size_t kBlock = 32;
     parallel_for(tree.pieces.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         CellPainter painter(job, scene, tree, options);
         for (std::size_t p = begin; p < end; ++p) {
             if (tree.pieces[p].beam != 0 || job.stop_requested()) continue;
-            for (const BeamCell& cell : cells_of(tree, behind, static_cast<std::uint32_t>(p))) {
+            for (const BeamCell& cell :
+                 cells_of(tree, behind, static_cast<std::uint32_t>(p), whole)) {
                 painter.paint(cell, painted[p]);
             }
         }

@@ -73,8 +73,13 @@ class BeamTreeMaker {
         while (first < tree_.beams.size() && !job_.stop_requested()) {
             const std::size_t end = tree_.beams.size();
             const std::size_t first_piece = tree_.pieces.size();
+            const std::uint64_t before = tests();
             see(first, regions);
-            regions = finish_pieces(first_piece);
+            std::vector<std::vector<BeamNode>> onward = finish_pieces(first_piece);
+            // A beam that leaves a piece of the eye is as large as that, but sees several pieces.
+            const double alike = first == 0 ? double(onward.size()) / 3 : double(end - first);
+            keep_most(double(tests() - before) / alike, onward);
+            regions = add_beams(onward);
             first = end;
         }
         return std::move(tree_);
@@ -94,9 +99,13 @@ class BeamTreeMaker {
         }
     }
 
-    /// Computes the lit parts of the pieces and adds the beams that leave them. Returns the regions
-    /// of these beams.
-    std::vector<PolygonSet> finish_pieces(std::size_t first) {
+    /// Hulls that all beams have tested.
+    [[nodiscard]] std::uint64_t tests() const {
+        return tree_.counts.seen.hulls + tree_.counts.shadow.hulls;
+    }
+
+    /// Computes the lit parts of the pieces. Returns the beams that leave them [piece].
+    std::vector<std::vector<BeamNode>> finish_pieces(std::size_t first) {
         const std::size_t count = tree_.pieces.size() - first;
         std::vector<std::vector<BeamNode>> onward(count);
         in_parallel(count, [&](BeamCaster& caster, std::size_t k) {
@@ -105,6 +114,11 @@ class BeamTreeMaker {
             light(caster, piece);
             leave(static_cast<std::uint32_t>(first + k), onward[k]);
         });
+        return onward;
+    }
+
+    /// Adds beams to the tree; returns their regions.
+    std::vector<PolygonSet> add_beams(std::vector<std::vector<BeamNode>>& onward) {
         std::vector<PolygonSet> regions;
         for (std::vector<BeamNode>& nodes : onward) {
             for (BeamNode& node : nodes) {
@@ -113,6 +127,32 @@ class BeamTreeMaker {
             }
         }
         return regions;
+    }
+
+    /// Keeps as many beams as the limit of tests permits if they test as many hulls each as those
+    /// of this generation: `each`.
+    void keep_most(double each, std::vector<std::vector<BeamNode>>& onward) {
+        const std::uint64_t most = options_.most_tests;
+        if (most == 0) return;
+        std::vector<std::pair<double, std::size_t>> weights;  // of the beams, with their places
+        for (const std::vector<BeamNode>& nodes : onward) {
+            for (const BeamNode& node : nodes) {
+                const auto area =
+                    static_cast<double>(twice_area(tree_.pieces[node.piece].seen.region));
+                weights.emplace_back(-area * node.contribution.max(), weights.size());
+            }
+        }
+        const std::uint64_t left = most - std::min(most, tests());
+        const auto kept = static_cast<std::size_t>(double(left) / std::max(each, 1.0));
+        if (weights.size() <= kept) return;
+        std::sort(weights.begin(), weights.end());
+        std::vector<bool> keeps(weights.size(), false);
+        for (std::size_t k = 0; k < kept; ++k) keeps[weights[k].second] = true;
+        tree_.left_out += weights.size() - kept;
+        std::size_t place = 0;
+        for (std::vector<BeamNode>& nodes : onward) {
+            std::erase_if(nodes, [&](const BeamNode&) { return !keeps[place++]; });
+        }
     }
 
     void in_parallel(std::size_t count, const std::function<void(BeamCaster&, std::size_t)>& work) {

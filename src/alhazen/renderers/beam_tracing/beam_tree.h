@@ -22,6 +22,9 @@ struct BeamTreeOptions {
     BeamCastOptions cast;
     double least_contribution = 0;  ///< least contribution of reflected and refracted beams
     double least_area = 0;          ///< their least area, as a fraction of the film
+    /// About the number of hulls of the facet tree that beams and shadows may test. Of a generation
+    /// that would test more, the beams of the largest area times contribution remain. 0: no limit.
+    std::uint64_t most_tests = 0;
 };
 
 struct BeamNode {
@@ -50,6 +53,7 @@ struct BeamTree {
     std::vector<BeamPiece> pieces;
     BeamCounts counts;
     std::vector<std::uint64_t> beams_of_kind;  ///< [RayKind]
+    std::uint64_t left_out = 0;                ///< beams beyond BeamTreeOptions::most_tests
 };
 
 /// The projection of a camera whose film extends to kBeamFilm from the middle, and its apex.

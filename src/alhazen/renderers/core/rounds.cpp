@@ -1,6 +1,7 @@
 #include "alhazen/renderers/core/rounds.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -95,6 +96,7 @@ class RoundRender {
             if (!first) seed = mix64(job_.seed ^ mix64(samples_));
             sampler_ = plan_.sampler->make(seed, count);
         }
+        std::atomic<std::uint64_t> finished = 0;
         const SampleRound round{*sampler_,
                                 filter_,
                                 plan_.sampler->progressive ? samples_ : 0,
@@ -102,18 +104,23 @@ class RoundRender {
                                 wanted_,
                                 sums_,
                                 seed,
-                                shared_ ? &*shared_ : nullptr};
+                                shared_ ? &*shared_ : nullptr,
+                                {},
+                                &finished};
         RenderJob part = job_;
         part.round = &round;
         if (!first) part.aovs = nullptr;
         const RenderReport report =
             render_tiles(part, film_, [&] { return renderer_.begin(part); });
         if (shared_) shared_->write(film_);
-        if (!report.complete()) return report;
-        samples_ += count;
         last_seconds_ = std::chrono::duration<double>(RoundClock::now() - begin).count();
+        const std::uint64_t pixels = report.complete() ? wanting_ : finished.load();
+        if (pixels > 0) {
+            samples_ += count;
+            report_.rounds.push_back({count, pixels, last_seconds_});
+        }
+        if (!report.complete()) return report;
         last_work_ = static_cast<double>(count) * static_cast<double>(wanting_);
-        report_.rounds.push_back({count, wanting_, last_seconds_});
         if (plan_.noise) measure_noise();
         return report;
     }

@@ -6,6 +6,7 @@
 /// the tiles. Threads: used by one thread.
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -46,6 +47,8 @@ struct SampleRound {
     /// samples are not shared.
     SharedFilm* shared = nullptr;
     ShutterPart shutter{};  ///< interval of the times of the samples
+    /// Counts the pixels that have got the samples of the round. Null: nobody asks.
+    std::atomic<std::uint64_t>* finished = nullptr;
 };
 
 class SampleLoop {
@@ -178,6 +181,9 @@ class SampleLoop {
             const std::span<const Vec2> places = std::span(places_).first(round_.count);
             aovs_.end_pixel(i, j, places);
             places_.erase(places_.begin(), places_.begin() + round_.count);
+        }
+        if (round_.finished != nullptr) {
+            round_.finished->fetch_add(1, std::memory_order_relaxed);
         }
         own_ = {};
         taken_ = 0;

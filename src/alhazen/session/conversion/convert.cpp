@@ -202,6 +202,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
         output.report().lost_mapped_tangents = meshes_that_use_tangents(description, names, meshes);
         output.report().lost_alpha = meshes_with_vertex_alpha(meshes);
         output.report().clamped_colors = meshes_with_colors_beyond_one(meshes);
+        output.report().unit_normals = meshes_with_normals_of_several_lengths(meshes);
         bytes = obj_text(meshes, write_materials(description, names, output));
         bytes += obj_surfaces_text(surfaces);
     } else if (meshes.size() == 1 && meshes.front().placement == Affine{} &&
@@ -270,6 +271,9 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
     lose(report.clamped_colors, "mesh", "meshes",
          "vertex colours of an OBJ are from 0 to 1: those of {} are clamped (.alhazen and .ply "
          "keep them)");
+    lose(report.unit_normals, "mesh", "meshes",
+         "normals of an OBJ have no lengths, which weigh them between vertices: those of {} are "
+         "made unit (.alhazen and .ply keep the lengths)");
     lose(report.mixed_faces, "face", "faces",
          "a face of an OBJ has one material: {} between vertices of different materials got that "
          "of the first vertex");

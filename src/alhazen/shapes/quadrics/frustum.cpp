@@ -95,6 +95,19 @@ Interval inside_side(const FrustumLine& l) {
     return {};
 }
 
+/// The part of the line inside the cylinder around the frustum.
+Interval inside_cylinder(const Frustum& f, const FrustumLine& l) {
+    const double radius = std::max(f.base_radius, f.top_radius);
+    const double a = l.dx * l.dx + l.dy * l.dy, b = l.ox * l.dx + l.oy * l.dy;
+    if (a == 0.0) return std::hypot(l.ox, l.oy) <= radius ? kWholeLine : Interval{};
+    const double reach = radius * std::sqrt(a);
+    const double moment = std::abs(difference_of_products(l.ox, l.dy, l.oy, l.dx));
+    const double discriminant = (reach - moment) * (reach + moment);
+    if (!(discriminant >= 0.0)) return {};
+    const double s = std::sqrt(discriminant);
+    return {(-b - s) / a, (-b + s) / a};
+}
+
 /// True if a line parallel to the ends runs between them; in an end: `keeps_face`.
 bool between_ends(const Frustum& f, const FrustumLine& l, const Ray& ray) {
     for (int k = 0; k < 3; ++k) {
@@ -109,7 +122,8 @@ bool between_ends(const Frustum& f, const FrustumLine& l, const Ray& ray) {
 
 int intersect_solid(const Frustum& f, const FrustumLine& l, const Ray& ray, ShapeHit* hits) {
     const double half_height = f.half_height;
-    const Interval side = inside_side(l);
+    Interval side = inside_side(l);
+    if (f.is_flat()) side = intersection(side, inside_cylinder(f, l));
     if (side.empty()) return 0;
     double entry = side.lo, exit = side.hi;
     std::uint32_t entry_part = 0, exit_part = 0;
@@ -132,7 +146,8 @@ int intersect_solid(const Frustum& f, const FrustumLine& l, const Ray& ray, Shap
     return report_span(ray, l.shift + entry, entry_part, l.shift + exit, exit_part, hits);
 }
 
-int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
+int intersect_side(const Frustum& f, const FrustumLine& l, const Ray& ray, ShapeHit* hits) {
+    const double half_height = f.half_height;
     Interval t;
     if (l.a == 0.0) {
         if (l.b == 0.0) return 0;
@@ -140,6 +155,11 @@ int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, Sha
     } else {
         if (!(l.discriminant >= 0.0)) return 0;
         t = roots(l);
+    }
+    if (f.is_flat()) {
+        const Interval around = inside_cylinder(f, l);
+        if (around.empty()) return 0;
+        t = {std::clamp(t.lo, around.lo, around.hi), std::clamp(t.hi, around.lo, around.hi)};
     }
     const auto between_the_ends = [&](double root) {
         const double z = l.oz + root * l.dz;
@@ -157,7 +177,7 @@ int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, Sha
 
 int all_hits_body(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
     const FrustumLine l = localise(f, ray);
-    return capped ? intersect_solid(f, l, ray, hits) : intersect_side(l, f.half_height, ray, hits);
+    return capped ? intersect_solid(f, l, ray, hits) : intersect_side(f, l, ray, hits);
 }
 ALHAZEN_FOR_EACH_INSTRUCTION_SET(int all_hits(const Frustum& f, const Ray& ray, bool capped,
                                               ShapeHit* hits),

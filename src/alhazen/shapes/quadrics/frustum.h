@@ -10,7 +10,8 @@
 /// Conventions: part 0 the side, 1 the cap at `base`, 2 the cap at `top`. u runs around the axis, v
 /// along it from `base`; on caps v runs from the axis (0) to the rim (1). A line in a cap's plane
 /// is inside or outside by `keeps_face`, one along the side of a cylinder is outside. Open ends: a
-/// crossing of the side belongs to the half-open range [base, top).
+/// crossing of the side belongs to the half-open range [base, top). Crossings are within rounding
+/// of the box, however flat the frustum is.
 
 #include "alhazen/shapes/core/shape.h"
 
@@ -30,6 +31,9 @@ struct Frustum {
     Frustum() = default;
     Frustum(const Vec3& base, const Vec3& top, double base_radius, double top_radius);
 
+    /// True if rounding of heights moves crossings of the side by more than rounding of the radius:
+    /// they are then kept in the cylinder around the frustum.
+    [[nodiscard]] bool is_flat() const { return std::abs(slope) > 1e3; }
     [[nodiscard]] Box3 box() const;
     [[nodiscard]] Interval extent(const Vec3& direction) const;
     /// Crossings of the solid's surface, or of the side alone when not `capped`.

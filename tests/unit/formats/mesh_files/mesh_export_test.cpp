@@ -188,6 +188,46 @@ TEST(MeshExport, TangentsArePlacedIfAllMeshesHaveThem) {
     EXPECT_TRUE(read_ply(ply_bytes(meshes), "a.ply", {}, found).tangents.empty());
 }
 
+TEST(MeshExport, PlacedNormalsKeepTheRatiosOfTheirLengthsInAPly) {
+    TriangleMesh mesh = ball(1);
+    mesh.generate_normals();
+    testing::Random random(22);
+    for (Vec3& normal : mesh.normals) normal = random.log_uniform(0.5, 2) * normal;
+    TriangleMesh unit = ball(1);
+    unit.generate_normals();
+    const Affine turned = Affine::rotate({0, 0, 1}, 0.5), squeezed = Affine::scale({4, 1, 0.5});
+    const Affine tiny = Affine::scale({1e-60, 2e-60, 1e-60});
+    std::vector<NamedMesh> meshes{{"", &mesh, turned, ""},
+                                  {"", &unit, squeezed, ""},
+                                  {"", &unit, turned, ""},
+                                  {"", &unit, tiny, ""}};
+    EXPECT_EQ(meshes_with_normals_of_several_lengths(meshes), 3u);
+    Diagnostics found;
+    const TriangleMesh back = read_ply(ply_bytes(meshes), "a.ply", {}, found);
+    const std::size_t n = unit.positions.size();
+    ASSERT_EQ(back.normals.size(), 4 * n) << text_of(found);
+    for (std::size_t m = 0; m < 4; ++m) {
+        const Affine& placement = meshes[m].placement;
+        const auto placed = [&](std::size_t i) {
+            const Vec3 scaled =
+                transpose_times(inverse(placement.linear), meshes[m].mesh->normals[i]);
+            return m == 3 ? 1e-60 * scaled : scaled;
+        };
+        double greatest = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            greatest = std::max(greatest, length(back.normals[m * n + i]));
+        }
+        EXPECT_NEAR(greatest, 1, 1e-15) << m;
+        for (std::size_t i = 1; i < n; ++i) {
+            const double ratio = length(placed(i)) / length(placed(0));
+            EXPECT_NEAR(length(back.normals[m * n + i]) / length(back.normals[m * n]), ratio, 1e-14)
+                << m << ' ' << i;
+            const double along = dot(back.normals[m * n + i], placed(i));
+            EXPECT_NEAR(along, length(back.normals[m * n + i]) * length(placed(i)), 1e-14) << m;
+        }
+    }
+}
+
 TEST(MeshExport, AFlatMeshAmongSmoothOnesStaysFlat) {
     TriangleMesh smooth = ball(1);
     smooth.generate_normals();

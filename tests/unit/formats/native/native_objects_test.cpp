@@ -247,5 +247,18 @@ TEST(NativeImporter, ReadsMeshes) {
               1u);
 }
 
+TEST(NativeObjects, NormalsMayHaveAnyLength) {
+    for (const std::string size : {"e-320", "e-200", "e200", "e307"}) {
+        const Imported i = import_native(
+            "mesh { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)]; normals = [(3" + size +
+            ", 0, 4" + size + "), (0,0,1), (0,0,1)] }");
+        ASSERT_EQ(i.messages(), "") << size;
+        const Vec3& normal = i.scene.meshes.at(0).mesh->normals.at(0);
+        const double error = size == "e-320" ? 1e-3 : 1e-15;
+        EXPECT_NEAR(normal.x, 0.6, error) << size;
+        EXPECT_NEAR(normal.z, 0.8, error) << size;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -122,6 +122,23 @@ TEST(Ply, EveryPrefixOfAFileIsRefusedOrIsAWholeMesh) {
     }
 }
 
+TEST(Ply, DataAfterTheLastElementAreAWarning) {
+    const auto findings = [](const std::string& bytes) {
+        Diagnostics found;
+        EXPECT_FALSE(mesh_of(bytes, "a.ply", found).triangles.empty());
+        EXPECT_EQ(found.error_count(), 0u);
+        return text_of(found);
+    };
+    EXPECT_EQ(findings(kPlySquare + " \n\r\n\t"), "");
+    EXPECT_EQ(findings(kPlySquare + "\n3 0 1 2\n"),
+              "a.ply:17:1: warning: 8 bytes follow the last element of the header, and are "
+              "ignored\n");
+    const std::string binary = binary_triangle(false, "\n"), plain = findings(binary);
+    EXPECT_EQ(plain.find("last element"), std::string::npos) << plain;
+    EXPECT_NE(findings(binary + ' ').find("1 byte follows"), std::string::npos);
+    EXPECT_NE(findings(binary + "1234").find("4 bytes follow"), std::string::npos);
+}
+
 TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
     for (const char* count : {"4000000000", "123456789", "9223372036854775807"}) {
         std::string huge = kPlySquare;

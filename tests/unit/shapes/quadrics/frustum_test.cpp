@@ -236,6 +236,45 @@ TEST(Frustum, BoxesTouchTheSolid) {
     }
 }
 
+TEST(Frustum, CrossingsOfVeryFlatOnesAreInTheirBox) {
+    Random random(48);
+    int count = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double height = random.log_uniform(1e-9, 1e-7), radius = random.log_uniform(1e5, 3e6);
+        const Vec3 base = random.coin() ? random.in_cube(1) : Vec3{};
+        const Vec3 axis = random.coin() ? Vec3{0, 0, 1} : random.unit_vector();
+        const Cone c = prepared(Cone{.base = base,
+                                     .top = base + height * axis,
+                                     .base_radius = radius,
+                                     .top_radius = random.coin() ? 0.0 : radius * random.uniform(),
+                                     .capped = random.coin()});
+        const Vec3 x = perpendicular(axis), y = cross(axis, x);
+        const Box3 box = c.box();
+        for (int k = 0; k < 50; ++k) {
+            const auto across = [&](double reach) {
+                return reach * (random.uniform(-1, 1) * x + random.uniform(-1, 1) * y);
+            };
+            const Vec3 from = c.base + across(radius * random.log_uniform(0.01, 1e4)) +
+                              height * random.log_uniform(1e9, 1e15) * random.sign() * axis;
+            const Vec3 to = c.base + across(radius * random.uniform(0.5, 1.5)) +
+                            height * random.uniform(-0.2, 1.2) * axis;
+            const Ray ray = line(from, to - from);
+            ShapeHit hits[2];
+            const int found = c.intersect(ray, hits);
+            for (int h = 0; h < found; ++h) {
+                const Vec3 p = ray.at(hits[h].t);
+                const double slack = 1e-13 * (radius + length(from));
+                ++count;
+                for (int a = 0; a < 3; ++a) {
+                    ASSERT_GE(p[a], box.lo[a] - slack) << "seed 48, case " << i << ' ' << k;
+                    ASSERT_LE(p[a], box.hi[a] + slack) << "seed 48, case " << i << ' ' << k;
+                }
+            }
+        }
+    }
+    EXPECT_GT(count, 100000);
+}
+
 TEST(Frustum, BadFieldsAreReported) {
     const auto errors = [](const auto& shape) {
         Diagnostics diagnostics;

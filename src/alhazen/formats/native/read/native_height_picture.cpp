@@ -45,7 +45,11 @@ void read_native_height_picture(BlockReader& reader, const NativeContext& contex
     try {
         const auto path = resolve_inside(context.roots, scope.folder, file);
         context.diagnostics.note_file(path);
-        fill(read_stored_image(path, context.options.image_limits), low, high, *field);
+        const StoredImage picture = read_stored_image(path, context.options.image_limits);
+        if (picture.held.are_none()) {
+            context.diagnostics.warning(reader.find("file")->location(), kNoPixelsHeld);
+        }
+        fill(picture, low, high, *field);
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("file"), error.what());

@@ -54,6 +54,9 @@ void read_environment_picture(BlockReader& reader, NativeContext& context,
         context.diagnostics.note_file(path);
         settings.picture =
             std::make_shared<const Image>(read_image(path, context.options.image_limits));
+        if (settings.picture->held.are_none()) {
+            context.diagnostics.warning(reader.find("file")->location(), kNoPixelsHeld);
+        }
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("file"), error.what());

@@ -9,11 +9,11 @@ namespace alhazen {
 struct SamplingReport {
     struct Round {
         std::uint32_t samples = 0;  ///< of each pixel
-        std::uint64_t pixels = 0;
+        std::uint64_t pixels = 0;   ///< that got them
         double seconds = 0;
     };
 
-    std::vector<Round> rounds;       ///< finished rounds
+    std::vector<Round> rounds;       ///< the last one may be stopped before all its pixels
     std::uint64_t pixels = 0;        ///< of the crop
     std::uint64_t pixels_above = 0;  ///< pixels whose noise is above SamplingPlan::noise
     bool out_of_time = false;        ///< SamplingPlan::seconds ended the work
