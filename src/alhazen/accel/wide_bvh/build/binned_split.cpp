@@ -3,7 +3,6 @@
 #include <new>
 
 #include "alhazen/accel/wide_bvh/build/axis_splits.h"
-#include "alhazen/accel/wide_bvh/build/partition.h"
 #include "alhazen/accel/wide_bvh/build/reference_chunks.h"
 #include "alhazen/accel/wide_bvh/build/sah_split.h"
 
@@ -18,6 +17,15 @@ Float4 first_three(Float4 v) {
     Int4 bits;
     std::memcpy(&bits, &v, sizeof(bits));
     bits &= Int4{-1, -1, -1, 0};
+    std::memcpy(&v, &bits, sizeof(v));
+    return v;
+}
+
+/// Sets the lanes of a mask to what is no number.
+Float4 masked(Float4 v, Int4 mask) {
+    Int4 bits;
+    std::memcpy(&bits, &v, sizeof(bits));
+    bits |= mask;
     std::memcpy(&v, &bits, sizeof(v));
     return v;
 }
@@ -43,23 +51,6 @@ struct Binning {
         const Float4 place = (first_three(center2) - lo) * scale;
         return __builtin_convertvector(lesser(place, most), Int4);
     }
-};
-
-/// True if the bin of a reference along the axis of a split is on its left.
-class LeftOf {
-  public:
-    LeftOf(const Binning& binning, const ObjectSplit& split)
-        : axis_(split.axis),
-          lo_(binning.lo[split.axis]),
-          scale_(binning.scale[split.axis]),
-          limit_(static_cast<float>(split.last_left + 1)) {}
-    bool operator()(const BuildReference& r) const {
-        return (r.center2(axis_) - lo_) * scale_ < limit_;
-    }
-
-  private:
-    int axis_;
-    float lo_, scale_, limit_;
 };
 
 /// Only the bins in use are constructed.
@@ -255,9 +246,34 @@ ObjectSplit split_by_bins(std::span<const BuildReference> references, const Rang
     return best_of_bins(bins, binning.bins, static_cast<int>(references.size()), kinds[only]);
 }
 
+/// As `partition`. Centers of the other side are masked: their lanes are no numbers, which minima and
+/// maxima skip.
 std::uint32_t partition_by_bins(std::span<BuildReference> references, const RangeSummary& all,
-                                const ObjectSplit& split) {
-    return partition(references, LeftOf(Binning(all), split));
+                                const ObjectSplit& split, Box4& left_centers,
+                                Box4& right_centers) {
+    const Binning binning(all);
+    const int axis = split.axis;
+    const Float4 lo = Float4{} + binning.lo[axis], scale = Float4{} + binning.scale[axis];
+    const Float4 limit = Float4{} + static_cast<float>(split.last_left + 1);
+    Box4 left, right;  // local, in registers
+    BuildReference* middle = references.data();
+    for (BuildReference& place : references) {
+        const Box4 here(place), there(*middle);
+        const Float4 along = Float4{} + place.center2(axis);
+        const Int4 is_left = (along - lo) * scale < limit;  // -1 in each lane where true
+        BuildReference* const to = middle;
+        middle -= is_left[0];
+        std::memcpy(place.lo, &there.lo, sizeof(there.lo));
+        std::memcpy(place.hi, &there.hi, sizeof(there.hi));
+        std::memcpy(to->lo, &here.lo, sizeof(here.lo));
+        std::memcpy(to->hi, &here.hi, sizeof(here.hi));
+        const Float4 center2 = here.center2();
+        left.include_point(masked(center2, ~is_left));
+        right.include_point(masked(center2, is_left));
+    }
+    left_centers = left;
+    right_centers = right;
+    return static_cast<std::uint32_t>(middle - references.data());
 }
 
 }  // namespace alhazen
