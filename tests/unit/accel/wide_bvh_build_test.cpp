@@ -466,7 +466,10 @@ TEST(MortonOrder, DividesCrowdedCellsAnewAndKeepsTheOrderOfEqualPlaces) {
         points.push_back(Float4{x, y, 0.125f * coordinate(), 0});
     }
     HugeRoom room(CurveOrder::room_bytes(points.size()));
-    const CurveOrder order(points, room);
+    const auto make = [&](std::size_t begin, std::size_t end, Float4* to) {
+        std::copy(points.data() + begin, points.data() + end, to);
+    };
+    const CurveOrder order({points.size(), make}, room);
     Box4 all;
     for (const Float4& p : points) all.include_point(p);
     std::vector<bool> seen(points.size());
