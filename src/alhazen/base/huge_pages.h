@@ -21,7 +21,13 @@ void collapse_to_huge_pages(std::span<T> values) {
     collapse_to_huge_pages(values.data(), values.size_bytes());
 }
 
-/// Allocator for large containers: blocks of at least one large page are aligned to it.
+/// A block of at least one large page begins with one; others are aligned as they must be. Throws
+/// std::bad_alloc.
+[[nodiscard]] void* allocate_pages(std::size_t bytes, std::size_t alignment);
+/// Frees a block of allocate_pages of the same size and alignment.
+void free_pages(void* memory, std::size_t bytes, std::size_t alignment);
+
+/// Allocator for large containers, by allocate_pages.
 template <class T>
 struct HugePageAllocator {
     using value_type = T;
@@ -31,21 +37,10 @@ struct HugePageAllocator {
 
     [[nodiscard]] T* allocate(std::size_t n) {
         if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
-        const std::size_t bytes = n * sizeof(T);
-        const bool huge = bytes >= kHugePageBytes;
-        void* memory = ::operator new(bytes, alignment(huge));
-        if (huge) prefer_huge_pages(memory, bytes);
-        return static_cast<T*>(memory);
+        return static_cast<T*>(allocate_pages(n * sizeof(T), alignof(T)));
     }
-    void deallocate(T* memory, std::size_t n) {
-        ::operator delete(memory, alignment(n * sizeof(T) >= kHugePageBytes));
-    }
+    void deallocate(T* memory, std::size_t n) { free_pages(memory, n * sizeof(T), alignof(T)); }
     friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
-
-  private:
-    static std::align_val_t alignment(bool huge) {
-        return std::align_val_t{huge ? kHugePageBytes : alignof(T)};
-    }
 };
 
 template <class T>

@@ -7,12 +7,32 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "alhazen/base/huge_pages.h"
 
 namespace alhazen {
+
+/// Leaves new values uninitialised if they need not be: they are written once, not twice.
+template <class T>
+struct UnwrittenPageAllocator : HugePageAllocator<T> {
+    UnwrittenPageAllocator() = default;
+    template <class U>
+    explicit UnwrittenPageAllocator(const UnwrittenPageAllocator<U>&) {}
+
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) == 0 && std::is_trivially_default_constructible_v<U>) {
+            ::new (static_cast<void*>(place)) U;
+        } else {
+            ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+        }
+    }
+};
 
 template <class T>
 class MappableVector {
@@ -68,6 +88,7 @@ class MappableVector {
     void reserve(std::size_t n) {
         change([&](auto& own) { own.reserve(n); });
     }
+    /// New values of a type without a constructor are uninitialised.
     void resize(std::size_t n) {
         change([&](auto& own) { own.resize(n); });
     }
@@ -76,7 +97,9 @@ class MappableVector {
     }
 
   private:
-    HugeVector<T>& own() {
+    using Own = std::vector<T, UnwrittenPageAllocator<T>>;
+
+    Own& own() {
         if (is_mapped()) {
             own_.assign(values_.begin(), values_.end());
             values_ = own_;
@@ -90,7 +113,7 @@ class MappableVector {
         values_ = own_;
     }
 
-    HugeVector<T> own_;
+    Own own_;
     std::span<const T> values_;  ///< the values of `own_` or of the other owner
     std::shared_ptr<const void> owner_;
 };

@@ -41,9 +41,12 @@ struct Share {
         bool some_empty = false;
         for_triangles(table, begin, end,
                       [&](std::uint32_t, const Vec3& a, const Vec3& b, const Vec3& c) {
-                          const TriangleBounds one(a, b, c);
-                          all.include(one);
-                          some_empty = some_empty || one.empty();
+                          TriangleBounds one;
+                          if (one.set(a, b, c)) {
+                              all.include(one);
+                          } else {
+                              some_empty = true;
+                          }
                       });
         box.include(all.box());
         bounded = bounded && !some_empty && within_reach(all.box());

@@ -47,6 +47,16 @@ struct PointLanes {
 };
 static_assert(offsetof(Vec3, y) == offsetof(Vec3, x) + sizeof(double));
 
+/// True if two of the points may be equal: x and y of some pairs are. One branch, not three.
+inline bool some_equal_across(const PointLanes& p, const PointLanes& q, const PointLanes& r) {
+#ifdef __SSE2__
+    return _mm_movemask_pd(_mm_or_pd(_mm_or_pd(_mm_cmpeq_pd(p.xy, q.xy), _mm_cmpeq_pd(q.xy, r.xy)),
+                                     _mm_cmpeq_pd(r.xy, p.xy))) == 3;
+#else
+    return true;
+#endif
+}
+
 /// The box of a triangle: lower and upper x and y; `deep` is lower z and negated upper z.
 struct TriangleBounds {
     Double2 lower, upper, deep;
@@ -58,12 +68,16 @@ struct TriangleBounds {
     }
     /// As PrimitiveTable::box: padded, and empty for a triangle with two equal corners.
     TriangleBounds(const Vec3& a, const Vec3& b, const Vec3& c) : TriangleBounds() {
+        (void)set(a, b, c);
+    }
+    /// The same for a box that is empty so far; false if it remains so.
+    bool set(const Vec3& a, const Vec3& b, const Vec3& c) {
         const PointLanes p(a), q(b), r(c);
-        if (p == q || q == r || r == p) return;
+        if (some_equal_across(p, q, r) && (p == q || q == r || r == p)) return false;
         include(p);
         include(q);
         include(r);
-        pad();
+        return pad();
     }
 
     void include(const PointLanes& p) {
@@ -84,8 +98,9 @@ struct TriangleBounds {
     }
 
     /// As `padded`. The padded box of some points contains those of any of them.
-    void pad() {
-        if (empty()) return;
+    /// Returns false if it is empty.
+    bool pad() {
+        if (empty()) return false;
         constexpr double kRelative = 8e-16;
         const Double2 across = kRelative * greater(magnitude(lower), magnitude(upper));
         const Double2 far = magnitude(deep);
@@ -93,6 +108,7 @@ struct TriangleBounds {
         lower -= across;
         upper += across;
         deep -= along;
+        return true;
     }
 
   private:
@@ -113,9 +129,10 @@ void for_triangles(const PrimitiveTable& table, std::uint32_t begin, std::uint32
         const auto* const triangles = mesh.triangles.data();
         const Vec3* const p = mesh.positions.data();
         for (; id < last; ++id) {
-            for (const std::uint32_t ahead :
-                 triangles[std::min(id + kAhead, last - 1) - first_of_mesh])
-                __builtin_prefetch(p + ahead);
+            const auto& ahead = triangles[std::min(id + kAhead, last - 1) - first_of_mesh];
+            __builtin_prefetch(p + ahead[0]);
+            __builtin_prefetch(p + ahead[1]);
+            __builtin_prefetch(p + ahead[2]);
             const auto& corners = triangles[id - first_of_mesh];
             f(id, p[corners[0]], p[corners[1]], p[corners[2]]);
         }

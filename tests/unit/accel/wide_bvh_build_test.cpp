@@ -18,6 +18,8 @@
 #include "alhazen/accel/wide_bvh/build/sah_cost.h"
 #include "alhazen/accel/wide_bvh/build/spatial_split.h"
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/simd/targets.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -206,6 +208,19 @@ float uniform(std::mt19937_64& random) {
     return static_cast<float>(random() >> 40) * 0x1p-24f * 2 - 1;
 }
 
+/// The places of parts of a tree depend on the order in which threads end.
+void expect_same_tree(const BinaryBvh& a, std::uint32_t at, const BinaryBvh& b, std::uint32_t to) {
+    const BinaryNode &one = a.nodes[at], &other = b.nodes[to];
+    ASSERT_EQ(one.box, other.box);
+    ASSERT_EQ(one.begin, other.begin);
+    ASSERT_EQ(one.end, other.end);
+    ASSERT_EQ(one.kind, other.kind);
+    ASSERT_EQ(one.is_leaf(), other.is_leaf());
+    if (one.is_leaf()) return;
+    expect_same_tree(a, at + 1, b, to + 1);
+    expect_same_tree(a, one.right, b, other.right);
+}
+
 TEST(WideBvhBuild, HoldsEveryPrimitiveOnceWithinItsBoxes) {
     std::mt19937_64 random(1);
     for (const std::size_t count : {0, 1, 2, 3, 8, 9, 12, 13, 64, 65, 1000, 20000}) {
@@ -260,6 +275,35 @@ TEST(WideBvhBuild, MakesNoInvalidNumbers) {
     }
 }
 #endif
+
+TEST(WideBvhBuild, TheTreeDoesNotDependOnTheInstructionSet) {
+    std::mt19937_64 random(9);
+    for (const std::size_t count : {2, 12, 13, 130, 1030, 70000}) {
+        std::vector<BuildReference> references;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float x = uniform(random), y = uniform(random), z = uniform(random);
+            references.push_back(reference(i, x, y, 0.1f * z, 0.01f * std::abs(uniform(random))));
+        }
+        std::vector<BuildReference> first;
+        BinaryBvh tree;
+        for (const std::string& target : simd_targets()) {
+            const SimdTargetOverride forced(target);
+            std::vector<BuildReference> ordered = references;
+            const bool one_thread = !first.empty();
+            BinaryBvh other;
+            ThreadLimit(one_thread ? 1 : 0).run([&] { other = build_binary(ordered, kKinds); });
+            if (!one_thread) {
+                first = std::move(ordered);
+                tree = std::move(other);
+                continue;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_EQ(ordered[i].id, first[i].id) << target << ", " << count << ", " << i;
+            }
+            expect_same_tree(tree, 0, other, 0);
+        }
+    }
+}
 
 TEST(WideBvhBuild, ManyIdenticalBoxesGiveAShallowTree) {
     std::vector<BuildReference> references;
@@ -466,7 +510,10 @@ TEST(MortonOrder, DividesCrowdedCellsAnewAndKeepsTheOrderOfEqualPlaces) {
         points.push_back(Float4{x, y, 0.125f * coordinate(), 0});
     }
     HugeRoom room(CurveOrder::room_bytes(points.size()));
-    const CurveOrder order(points, room);
+    const auto make = [&](std::size_t begin, std::size_t end, Float4* to) {
+        std::copy(points.data() + begin, points.data() + end, to);
+    };
+    const CurveOrder order({points.size(), make}, room);
     Box4 all;
     for (const Float4& p : points) all.include_point(p);
     std::vector<bool> seen(points.size());

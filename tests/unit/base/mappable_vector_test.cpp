@@ -34,6 +34,23 @@ TEST(MappableVector, GrowsLikeAVector) {
     EXPECT_EQ(read(v), Values{5});
 }
 
+TEST(MappableVector, NewValuesOfATypeWithAConstructorAreMade) {
+    struct Made {
+        int seven = 7;
+        int zero;
+    };
+    MappableVector<Made> v;
+    v.reserve(8);
+    for (std::size_t size = 1; size <= 8; ++size) {
+        v.resize(size);
+        EXPECT_EQ(v[size - 1].seven, 7);
+        EXPECT_EQ(v[size - 1].zero, 0);
+    }
+    v.resize(0);
+    v.resize(2);
+    EXPECT_EQ(v[1].seven, 7);
+}
+
 TEST(MappableVector, ReadsTheMemoryOfItsOwnerAndKeepsItAlive) {
     auto owner = std::make_shared<Values>(Values{1, 2, 3});
     const int* const place = owner->data();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -30,6 +31,18 @@ struct ChoiceOf {
     bool as_leaf;                            ///< the single subtree is a leaf
 
     [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
+    /// The number of subtrees made of at most i.
+    [[nodiscard]] std::uint32_t used(std::uint32_t i) const {
+        if constexpr (kWidth == 8 && std::endian::native == std::endian::little) {
+            // The highest byte that is not 0, of the lowest i.
+            std::uint64_t all;
+            std::memcpy(&all, lefts.data(), sizeof(all));
+            all &= ~std::uint64_t{0} >> (64 - 8 * i);
+            return (static_cast<std::uint32_t>(std::bit_width(all | 1)) + 7) / 8;
+        }
+        while (i > 1 && left(i) == 0) --i;
+        return i;
+    }
 };
 
 /// [j - 1] The least cost of a node's two children as at most j subtrees in all, and the number of
@@ -296,25 +309,35 @@ class WideCollapse {
 
     void choose(std::uint32_t index, Costs& costs) {
         const BinaryNode& node = binary_.nodes[index];
-        const float area = node.box.weight();
-        const float as_leaf = leaf_cost(node, area);
-        if (node.is_leaf()) {
-            const Float4 four{as_leaf, as_leaf, as_leaf, as_leaf};
-            for (std::size_t i = 0; i < kWidth; i += 4) {
-                std::memcpy(costs.data() + i, &four, sizeof(four));
-            }
-            choices_[index] = {{}, 0, true};
-            return;
-        }
+        if (node.is_leaf()) return choose_leaf(index, node, costs);
         Costs of_left, of_right;
         if (is_task(node)) {
             parallel_invoke([&] { choose(index + 1, of_left); },
                             [&] { choose(node.right, of_right); });
         } else {
-            choose(index + 1, of_left);
-            choose(node.right, of_right);
+            choose_child(index + 1, of_left);
+            choose_child(node.right, of_right);
         }
-        choices_[index] = weigh<kWidth>(of_left, of_right, area, as_leaf, costs);
+        const float area = node.box.weight();
+        choices_[index] =
+            weigh<kWidth>(of_left, of_right, area, leaf_cost(node, area), costs);
+    }
+    /// As `choose`. Half of the nodes are leaves: they are not worth a call.
+    void choose_child(std::uint32_t index, Costs& costs) {
+        const BinaryNode& node = binary_.nodes[index];
+        if (node.is_leaf()) {
+            choose_leaf(index, node, costs);
+        } else {
+            choose(index, costs);
+        }
+    }
+    void choose_leaf(std::uint32_t index, const BinaryNode& node, Costs& costs) {
+        const float as_leaf = leaf_cost(node, node.box.weight());
+        const Float4 four{as_leaf, as_leaf, as_leaf, as_leaf};
+        for (std::size_t i = 0; i < kWidth; i += 4) {
+            std::memcpy(costs.data() + i, &four, sizeof(four));
+        }
+        choices_[index] = {{}, 0, true};
     }
 
     [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
@@ -328,7 +351,7 @@ class WideCollapse {
     /// Appends the subtrees, at most `budget`, chosen for a subtree.
     void gather(std::uint32_t index, std::uint32_t budget, Children& out) const {
         const Choice& choice = choices_[index];
-        while (budget > 1 && choice.left(budget) == 0) --budget;
+        budget = choice.used(budget);
         if (budget == 1) {
             out.node[out.count++] = index;
         } else {
@@ -351,10 +374,9 @@ class WideCollapse {
     }
 
     [[nodiscard]] Plan plan(std::uint32_t index, int depth) const {
-        const BinaryNode& node = binary_.nodes[index];
         Plan sum;
-        if (choices_[index].as_leaf) {
-            sum.extent.blocks[node.kind] = blocks_of(node);
+        if (choices_[index].as_leaf || !is_task(binary_.nodes[index])) {
+            count(index, depth, sum);
             return sum;
         }
         sum.extent.nodes = 1;
@@ -362,10 +384,6 @@ class WideCollapse {
         // A tree that is too deep is rejected; its size does not matter.
         if (depth > kMaxWideDepth) return sum;
         const Children all = children(index);
-        if (!is_task(node)) {
-            for (std::uint32_t i = 0; i < all.count; ++i) sum.add(plan(all.node[i], depth + 1));
-            return sum;
-        }
         sum.children.resize(all.count);
         parallel_for(all.count, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -374,6 +392,25 @@ class WideCollapse {
         });
         for (const Plan& child : sum.children) sum.add(child);
         return sum;
+    }
+    /// Adds what a wide subtree has.
+    void count(std::uint32_t index, int depth, Plan& sum) const {
+        if (choices_[index].as_leaf) return count_leaf(index, sum);
+        ++sum.extent.nodes;
+        sum.depth = std::max(sum.depth, depth);
+        if (depth > kMaxWideDepth) return;
+        const Children all = children(index);
+        for (std::uint32_t i = 0; i < all.count; ++i) {
+            if (choices_[all.node[i]].as_leaf) {
+                count_leaf(all.node[i], sum);
+            } else {
+                count(all.node[i], depth + 1, sum);
+            }
+        }
+    }
+    void count_leaf(std::uint32_t index, Plan& sum) const {
+        const BinaryNode& node = binary_.nodes[index];
+        sum.extent.blocks[node.kind] += blocks_of(node);
     }
 
     /// Writes a subtree from `place` on, and advances `place` past it.

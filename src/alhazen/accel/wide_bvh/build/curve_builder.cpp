@@ -17,6 +17,9 @@ constexpr std::size_t kChunk = 4096;  // primitives in a task
 /// Subtrees of at least this many leaves are separate tasks.
 constexpr std::uint32_t kTaskLeaves = 1024;
 
+/// Room for what follows the order of the primitives, in bytes for each: leaves mostly have six.
+constexpr std::size_t kLaterBytes = 22;
+
 using BlockCounts = std::array<std::size_t, kLeafKinds>;
 
 /// Writes `count` indices in ascending order, by their ranks. The others are 0.
@@ -149,12 +152,11 @@ FilledLeaves fill_leaves(CurvePrimitives& primitives, const LeafKinds& kinds, Hu
     std::vector<std::vector<CurveLeaf>> leaves(parts);
     std::vector<BlockCounts> blocks(parts);
     {
-        Float4* const centers = room.take<Float4>(size);
-        parallel_for(size, kChunk, [&](std::size_t begin, std::size_t end) {
+        const auto centers = [&](std::size_t begin, std::size_t end, Float4* to) {
             primitives.centers(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                               centers + begin);
-        });
-        const CurveOrder order(std::span<const Float4>(centers, size), room);
+                               to);
+        };
+        const CurveOrder order({size, centers}, room);
         const LeafSearch search(order, size, primitives, kinds, indices);
         parallel_for(size, kChunk, [&](std::size_t begin, std::size_t end) {
             search.find(begin, end, leaves[begin / kChunk], blocks[begin / kChunk]);
@@ -274,8 +276,8 @@ WideBvh build_along_curve(CurvePrimitives& primitives, const LeafKinds& kinds,
                           std::uint32_t width) {
     if (primitives.size() == 0) return {};
     const std::size_t size = primitives.size();
-    HugeRoom room(HugeRoom::bytes_for<std::uint32_t>(size) + HugeRoom::bytes_for<Float4>(size) +
-                  CurveOrder::room_bytes(size));
+    HugeRoom room(HugeRoom::bytes_for<std::uint32_t>(size) +
+                  std::max(CurveOrder::room_bytes(size), kLaterBytes * size));
     const FilledLeaves leaves = fill_leaves(primitives, kinds, room);
     const std::size_t nodes = 2 * std::size_t{leaves.count} - 1;
     BorrowedTree tree(room.take<BinaryNode>(nodes), nodes);

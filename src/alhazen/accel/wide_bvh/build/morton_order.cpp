@@ -42,11 +42,23 @@ void sort_by_digit(std::span<const std::uint64_t> from, std::uint64_t* to, int s
 
 constexpr std::size_t kPointsAtOnce = 8192;
 
-Box4 box_of(std::span<const Float4> points) {
-    std::vector<Box4> parts((points.size() - 1) / kPointsAtOnce + 1);
-    parallel_for(points.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+/// Calls use(point, i) for the points from `begin` to `end`.
+template <class Use>
+void for_points(const CurvePoints& points, std::size_t begin, std::size_t end, Use&& use) {
+    constexpr std::size_t kFew = 512;  // in the nearest cache
+    Float4 few[kFew];
+    for (std::size_t i = begin; i < end; i += kFew) {
+        const std::size_t count = std::min(kFew, end - i);
+        points.make(i, i + count, few);
+        for (std::size_t k = 0; k < count; ++k) use(few[k], i + k);
+    }
+}
+
+Box4 box_of(const CurvePoints& points) {
+    std::vector<Box4> parts((points.size - 1) / kPointsAtOnce + 1);
+    parallel_for(points.size, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
         Box4 box;
-        for (std::size_t i = begin; i < end; ++i) box.include_point(points.data()[i]);
+        for_points(points, begin, end, [&](Float4 p, std::size_t) { box.include_point(p); });
         parts[begin / kPointsAtOnce] = box;
     });
     Box4 all;
@@ -102,16 +114,16 @@ CurveGrid::CurveGrid(const Box4& box) : lo_(box.lo) {
     most_[3] = 0.0f;
 }
 
-CurveOrder::CurveOrder(std::span<const Float4> points, HugeRoom& room)
-    : size_(points.size()), entries_(room.take<Entry>(points.size())) {
-    if (points.empty()) return;
+CurveOrder::CurveOrder(const CurvePoints& points, HugeRoom& room)
+    : size_(points.size), entries_(room.take<Entry>(points.size)) {
+    if (size_ == 0) return;
     Entry* other = room.take<Entry>(size_);
     const CurveGrid grid(box_of(points));
     parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
         Entry* const to = entries_;
-        for (std::size_t i = begin; i < end; ++i) {
-            to[i] = std::uint64_t{grid.code(points.data()[i])} << 32 | i;
-        }
+        for_points(points, begin, end, [&](Float4 p, std::size_t i) {
+            to[i] = std::uint64_t{grid.code(p)} << 32 | i;
+        });
     });
     sort(entries_, other, size_);
     const std::vector<Run> crowded = crowded_cells();
@@ -156,16 +168,20 @@ std::vector<CurveOrder::Run> CurveOrder::crowded_cells() const {
 }
 
 /// Sorts the points of a cell by the places in a grid over them.
-void CurveOrder::divide_cell(Run run, std::span<const Float4> points) {
+void CurveOrder::divide_cell(Run run, const CurvePoints& points) {
     const std::size_t count = run.end - run.begin;
+    const auto its = make_huge_array<Float4>(count);
     Box4 box;
-    for (std::size_t i = run.begin; i < run.end; ++i) box.include_point(points[index(i)]);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t number = index(run.begin + i);
+        points.make(number, number + 1, &its[i]);
+        box.include_point(its[i]);
+    }
     const CurveGrid grid(box);
     const auto room = make_huge_array<Entry>(2 * count);
     Entry *inner = room.get(), *other = inner + count;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t number = index(run.begin + i);
-        inner[i] = std::uint64_t{grid.code(points[number])} << 32 | number;
+        inner[i] = std::uint64_t{grid.code(its[i])} << 32 | index(run.begin + i);
     }
     sort(inner, other, count);
     const Entry cell = entries_[run.begin] >> 32 << 32;

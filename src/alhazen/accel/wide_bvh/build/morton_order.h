@@ -8,7 +8,7 @@
 /// Complexity and threads: O(n), parallel. The result is the same for every number of threads.
 
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "alhazen/accel/wide_bvh/build/box4.h"
@@ -45,11 +45,18 @@ class CurveGrid {
 /// Cells with more points are divided anew.
 inline constexpr std::size_t kCurveLeafSize = 8;
 
+/// Points that are made whenever they are needed: storing them takes longer.
+struct CurvePoints {
+    std::size_t size = 0;
+    /// Writes the points from `begin` to `end`, the fourth lane 0. Must be thread-safe.
+    std::function<void(std::size_t begin, std::size_t end, Float4* to)> make;
+};
+
 /// Points in the order of the curve; those at the same place are in the order of their indices.
 class CurveOrder {
   public:
-    /// Takes room_bytes(points.size()) of the room, which must outlive it.
-    CurveOrder(std::span<const Float4> points, HugeRoom& room);
+    /// Takes room_bytes(points.size) of the room, which must outlive it.
+    CurveOrder(const CurvePoints& points, HugeRoom& room);
     [[nodiscard]] static std::size_t room_bytes(std::size_t points) {
         return 2 * HugeRoom::bytes_for<Entry>(points);
     }
@@ -73,7 +80,7 @@ class CurveOrder {
 
     static void sort(Entry*& entries, Entry*& other, std::size_t size);
     [[nodiscard]] std::vector<Run> crowded_cells() const;
-    void divide_cell(Run run, std::span<const Float4> points);
+    void divide_cell(Run run, const CurvePoints& points);
 
     std::size_t size_;
     Entry* entries_;

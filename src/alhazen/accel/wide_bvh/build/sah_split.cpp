@@ -44,7 +44,7 @@ Box4 box_of_centers(std::span<const BuildReference> references) {
     return centers;
 }
 
-/// The same, for sides whose boxes are known from the split.
+/// Summarizes sides whose boxes are known from the split, but for their centers.
 void summarize_sides(std::span<const BuildReference> references, const RangeSummary& all,
                      const ObjectSplit& split, std::uint32_t middle, RangeSummary& left,
                      RangeSummary& right) {
@@ -54,8 +54,6 @@ void summarize_sides(std::span<const BuildReference> references, const RangeSumm
     right.box = split.right;
     left.count[only] = middle;
     right.count[only] = static_cast<std::uint32_t>(references.size()) - middle;
-    left.centers = box_of_centers(references.first(middle));
-    right.centers = box_of_centers(references.subspan(middle));
 }
 
 }  // namespace
@@ -85,8 +83,10 @@ std::uint32_t divide(std::span<BuildReference> references, const RangeSummary& a
         std::copy(references.begin(), references.end(), before.begin());
         for (std::size_t i = 0; i < references.size(); ++i) references[i] = before[split.places[i]];
         middle = static_cast<std::uint32_t>(split.last_left) + 1;
+        left.centers = box_of_centers(references.first(middle));
+        right.centers = box_of_centers(references.subspan(middle));
     } else {
-        middle = partition_by_bins(references, all, split);
+        middle = partition_by_bins(references, all, split, left.centers, right.centers);
     }
     summarize_sides(references, all, split, middle, left, right);
     return middle;

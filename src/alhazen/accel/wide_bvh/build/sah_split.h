@@ -97,9 +97,11 @@ struct ObjectSplit {
                                         const RangeSummary& all, const LeafKinds& kinds);
 [[nodiscard]] ObjectSplit split_by_sweeps(std::span<const BuildReference> references,
                                           const RangeSummary& all, const LeafKinds& kinds);
-/// Reorders by a split of split_by_bins, its left side first; returns the size of the left side.
+/// Reorders by a split of split_by_bins, its left side first; returns the size of the left side, and
+/// the boxes of twice the centers of both.
 std::uint32_t partition_by_bins(std::span<BuildReference> references, const RangeSummary& all,
-                                const ObjectSplit& split);
+                                const ObjectSplit& split, Box4& left_centers,
+                                Box4& right_centers);
 
 /// Reorders so that the left side comes first; returns its size and summarizes both sides.
 std::uint32_t divide(std::span<BuildReference> references, const RangeSummary& all,

@@ -1,17 +1,14 @@
 #include <array>
 #include <cstddef>
 
-#include "alhazen/accel/wide_bvh/build/axis_splits.h"
 #include "alhazen/accel/wide_bvh/build/sah_split.h"
+#include "alhazen/accel/wide_bvh/build/split_kernels.h"
 
 namespace alhazen {
 namespace {
 
-/// The order of a few references along each axis.
-using Places = std::array<std::array<std::uint8_t, kSweepSize>, 3>;
-
 /// A stable sort that compares all pairs without branches, as comparisons are unpredictable.
-void sort_places(const BuildReference* references, std::size_t size, Places& places) {
+void sort_places(const BuildReference* references, std::size_t size, SweepPlaces& places) {
     Float4 center[kSweepSize];
     Int4 rank[kSweepSize];
     for (std::size_t i = 0; i < size; ++i) {
@@ -34,7 +31,7 @@ void sort_places(const BuildReference* references, std::size_t size, Places& pla
 }
 
 /// The best split of a few references of several kinds.
-ObjectSplit sweep_mixed(const BuildReference* references, std::size_t size, const Places& places,
+ObjectSplit sweep_mixed(const BuildReference* references, std::size_t size, const SweepPlaces& places,
                         const RangeSummary& all, const LeafKinds& kinds) {
     ObjectSplit best;
     const SideCost cost{kinds};
@@ -63,51 +60,18 @@ ObjectSplit sweep_mixed(const BuildReference* references, std::size_t size, cons
     return best;
 }
 
-/// The best split of a few references of one kind: all axes at once, in lanes.
-ObjectSplit sweep_plain(const BuildReference* references, std::size_t size, const Places& places,
-                        const RangeSummary& all, const LeafKind& kind) {
-    const auto include = [&](AxisBoxes& boxes, std::size_t i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            boxes.of[axis].include(Box4(references[places[axis][i]]));
-        }
-    };
-    const auto cost = [&](const AxisBoxes& boxes, std::size_t number) {
-        const auto blocks = static_cast<float>(kind.blocks(static_cast<std::uint32_t>(number)));
-        return boxes.weights() * kind.cost * blocks;
-    };
-    Float4 right_cost[kSweepSize];
-    AxisBoxes right;
-    for (std::size_t i = size - 1; i > 0; --i) {
-        include(right, i);
-        right_cost[i] = cost(right, size - i);
-    }
-    const Int4 wide = all.centers.hi > all.centers.lo;
-    AxisSplits splits;
-    AxisBoxes left;
-    for (std::size_t i = 0; i + 1 < size; ++i) {
-        include(left, i);
-        splits.offer(cost(left, i + 1) + right_cost[i + 1], wide, static_cast<int>(i));
-    }
-    ObjectSplit best = splits.best();
-    if (best.axis < 0) return best;
-    const auto& order = places[static_cast<std::size_t>(best.axis)];
-    const auto middle = static_cast<std::size_t>(best.last_left) + 1;
-    for (std::size_t i = 0; i < middle; ++i) best.left.include(Box4(references[order[i]]));
-    for (std::size_t i = middle; i < size; ++i) best.right.include(Box4(references[order[i]]));
-    return best;
-}
-
 }  // namespace
 
 ObjectSplit split_by_sweeps(std::span<const BuildReference> references, const RangeSummary& all,
                             const LeafKinds& kinds) {
-    Places places;
+    SweepPlaces places;
     sort_places(references.data(), references.size(), places);
     const std::uint32_t only = all.kind();
     ObjectSplit best =
         only == kLeafKinds
             ? sweep_mixed(references.data(), references.size(), places, all, kinds)
-            : sweep_plain(references.data(), references.size(), places, all, kinds[only]);
+            : split_kernels().sweep(references.data(), references.size(), places,
+                                    all.centers.hi > all.centers.lo, kinds[only]);
     if (best.axis >= 0) best.places = places[static_cast<std::size_t>(best.axis)];
     return best;
 }

@@ -92,8 +92,17 @@ struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
     Order order[8];
 
     WideNodeOf() {
-        for (std::size_t i = 0; i < Width; ++i) set_box(i, FloatBox{});
-        set_order();
+        constexpr float kInf = std::numeric_limits<float>::infinity();
+        for (std::size_t k = 0; k < 6; ++k) {
+            for (float& plane : planes[k]) plane = k < 3 ? kInf : -kInf;
+        }
+        for (Order& slots : order) slots = slots_in_turn();
+    }
+    /// The order of a node without children.
+    [[nodiscard]] static constexpr Order slots_in_turn() {
+        std::uint64_t all = 0;
+        for (std::uint64_t i = 0; i < Width; ++i) all |= i << kSlotBits * i;
+        return static_cast<Order>(all);
     }
     /// Number of slots in use.
     [[nodiscard]] std::uint32_t child_count() const {

@@ -192,10 +192,15 @@ float LocalVertices::area(const LaneTriangles& triangles) const {
 /// The rounding of a coordinate, of its margin and of their difference take less than the margin's
 /// four halves of an ulp.
 Box4 LocalVertices::box(const LaneTriangles& triangles) const {
-    Box4 box;
+    // One box for each corner: minima do not wait for each other.
+    Box4 box, second, third;
     for (std::uint32_t lane = 0; lane < triangles.count; ++lane) {
-        for (const auto& corner : triangles.corner) box.include_point(all_[corner[lane]]);
+        box.include_point(all_[triangles.corner[0][lane]]);
+        second.include_point(all_[triangles.corner[1][lane]]);
+        third.include_point(all_[triangles.corner[2][lane]]);
     }
+    box.include(second);
+    box.include(third);
     box.lo -= magnitude(box.lo) * 0x1p-22f + pad_;
     box.hi += magnitude(box.hi) * 0x1p-22f + pad_;
     return box;

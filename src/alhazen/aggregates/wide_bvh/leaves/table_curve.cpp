@@ -98,42 +98,88 @@ void TableCurve::fill(std::span<const CurveLeaf> leaves, const std::uint32_t* in
     }
 }
 
-/// Reads and prefetches some leaves ahead.
-void TableCurve::fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
-                                std::uint32_t first, BuildReference* boxes, float* areas) const {
-    constexpr std::size_t kAhead = 4;  // leaves
-    const bool several = writer_.table().meshes.size() > 1;
-    const MeshView only = view(PrimitiveId{bounded_.id(indices[leaves[0].first])});
-    const auto view_of = [&](PrimitiveId id) { return several ? view(id) : only; };
-    LaneTriangles triangles[kAhead];
-    const auto prefetch = [&](std::size_t i) {
-        if (i >= leaves.size()) return;
-        const std::uint32_t* const its = indices + leaves[i].first;
-        for (std::uint32_t k = 0; k < leaves[i].count; ++k) {
-            const PrimitiveId id{bounded_.id(its[k])};
+/// The triangles of leaves, in the order of these.
+template <bool kSimple>
+class TableCurve::Finder {
+  public:
+    /// `kSimple`: one mesh has all primitives, and all its triangles are opaque or none.
+    Finder(const TableCurve& curve, const std::uint32_t* indices, const MeshView& only)
+        : curve_(curve),
+          indices_(indices),
+          only_(only),
+          several_(curve.writer_.table().meshes.size() > 1),
+          vertices_(&curve.vertices_[0]) {}
+
+    /// Inlined: GCC drops calls of a function that only prefetches.
+    [[gnu::always_inline]] void prefetch(const CurveLeaf& leaf) const {
+        const std::uint32_t* const its = indices_ + leaf.first;
+        for (std::uint32_t k = 0; k < leaf.count; ++k) {
+            const PrimitiveId id = id_of(its[k]);
             __builtin_prefetch(&view_of(id).corners(id));
         }
-    };
-    const auto find = [&](std::size_t i) {
-        if (i >= leaves.size()) return;
-        LaneTriangles& found = triangles[i % kAhead];
-        const std::uint32_t* const its = indices + leaves[i].first;
-        found.count = leaves[i].count;
+    }
+    /// Prefetches the vertices.
+    void find(const CurveLeaf& leaf, LaneTriangles& found) const {
+        const std::uint32_t* const its = indices_ + leaf.first;
+        found.count = leaf.count;
         std::uint32_t k = 0;
-        for (; k < leaves[i].count; ++k) {
-            const PrimitiveId id{bounded_.id(its[k])};
+        for (; k < leaf.count; ++k) {
+            const PrimitiveId id = id_of(its[k]);
             const MeshView mesh = view_of(id);
             const auto& corners = mesh.corners(id);
             for (std::size_t c = 0; c < 3; ++c) {
-                found.corner[c][k] = mesh.first_vertex + corners[c];
-                __builtin_prefetch(&vertices_[found.corner[c][k]]);
+                const std::uint32_t vertex = mesh.first_vertex + corners[c];
+                found.corner[c][k] = vertex;
+                __builtin_prefetch(vertices_ + vertex);
             }
-            found.ids[k] = {id, mesh.same ? mesh.opaque : writer_.table().is_opaque(id), false};
+            const bool opaque =
+                kSimple || mesh.same ? mesh.opaque : curve_.writer_.table().is_opaque(id);
+            found.ids[k] = {id, opaque, false};
         }
+        const std::uint32_t unused = curve_.vertices_.unused();
         for (; k < kBlockWidth; ++k) {
-            for (std::uint32_t c = 0; c < 3; ++c) found.corner[c][k] = vertices_.unused() + c;
+            for (std::uint32_t c = 0; c < 3; ++c) found.corner[c][k] = unused + c;
             found.ids[k] = BlockId::none();
         }
+    }
+
+  private:
+    [[nodiscard]] PrimitiveId id_of(std::uint32_t index) const {
+        return PrimitiveId{kSimple ? index : curve_.bounded_.id(index)};
+    }
+    [[nodiscard]] MeshView view_of(PrimitiveId id) const {
+        return kSimple || !several_ ? only_ : curve_.view(id);
+    }
+
+    const TableCurve& curve_;
+    const std::uint32_t* indices_;
+    MeshView only_;
+    bool several_;
+    const Float4* vertices_;
+};
+
+void TableCurve::fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
+                                std::uint32_t first, BuildReference* boxes, float* areas) const {
+    const PrimitiveTable& table = writer_.table();
+    const MeshView only = view(PrimitiveId{bounded_.id(indices[leaves[0].first])});
+    if (bounded_.size() == table.size() && table.meshes.size() == 1 && only.same) {
+        fill_found(Finder<true>(*this, indices, only), leaves, first, boxes, areas);
+    } else {
+        fill_found(Finder<false>(*this, indices, only), leaves, first, boxes, areas);
+    }
+}
+
+/// Reads and prefetches some leaves ahead.
+template <class TriangleFinder>
+void TableCurve::fill_found(const TriangleFinder& finder, std::span<const CurveLeaf> leaves,
+                            std::uint32_t first, BuildReference* boxes, float* areas) const {
+    constexpr std::size_t kAhead = 4;  // leaves
+    LaneTriangles triangles[kAhead];
+    const auto prefetch = [&](std::size_t i) {
+        if (i < leaves.size()) finder.prefetch(leaves[i]);
+    };
+    const auto find = [&](std::size_t i) {
+        if (i < leaves.size()) finder.find(leaves[i], triangles[i % kAhead]);
     };
     TriangleBlock* const blocks = writer_.triangle_blocks();
     for (std::size_t i = 0; i + 1 < 2 * kAhead; ++i) prefetch(i);

@@ -41,11 +41,17 @@ class TableCurve final : public CurvePrimitives {
             return triangles[static_cast<std::uint32_t>(id) - first];
         }
     };
+    template <bool kSimple>
+    class Finder;
+
     [[nodiscard]] MeshView view(PrimitiveId id) const;
     [[nodiscard]] std::uint32_t first_vertex(const PlacedMesh& placed) const;
     void triangle_centers(std::uint32_t begin, std::uint32_t end, Float4* to) const;
     void fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
                         std::uint32_t first, BuildReference* boxes, float* areas) const;
+    template <class TriangleFinder>
+    void fill_found(const TriangleFinder& finder, std::span<const CurveLeaf> leaves,
+                    std::uint32_t first, BuildReference* boxes, float* areas) const;
     void fill_shapes(const CurveLeaf& leaf, const std::uint32_t* indices, std::uint32_t number,
                      BuildReference& box, float& area) const;
 
