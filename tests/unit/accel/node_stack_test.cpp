@@ -1,5 +1,6 @@
 // Of the children that a ray meets, the stack takes all but the nearest, the farthest first by the
-// order of the octant, on every instruction set; and it drops what lies beyond the end of a ray.
+// order of the octant, on every instruction set, or those of the highest slots first; and it drops
+// what lies beyond the end of a ray.
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 
@@ -42,6 +43,22 @@ std::size_t push_on_stack(const WideNode& node, const float* entries, const floa
     return nearest;
 }
 
+/// Pushes the children of `bits` without entries onto `below` others; returns the height, with the
+/// children of the whole stack.
+std::size_t push_by_slots(const WideNode& node, std::uint32_t bits, bool at_once, std::size_t below,
+                          std::uint32_t* children) {
+    NodeStack<8> stack;
+    std::size_t height = 0;
+    for (; height < below; ++height) stack.child[height] = children[height];
+    if (at_once) {
+        stack.push_at_once(height, node, bits);
+    } else {
+        stack.push_one_by_one(height, node, bits);
+    }
+    for (std::size_t i = 0; i < height; ++i) children[i] = stack.child[i];
+    return height;
+}
+
 /// Of a stack of `count` entries above the sentinel; returns how many are left.
 std::size_t drop_from_stack(float s_max, std::size_t count, float* entries,
                             std::uint32_t* children) {
@@ -69,6 +86,7 @@ namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 ALHAZEN_KERNEL_TABLE(push_on_stack);
+ALHAZEN_KERNEL_TABLE(push_by_slots);
 ALHAZEN_KERNEL_TABLE(drop_from_stack);
 
 using NodeRandom = std::mt19937;
@@ -138,6 +156,35 @@ TEST(NodeStack, TakesAllChildrenButTheNearestOnEveryInstructionSet) {
                 ALHAZEN_KERNEL(push_on_stack)(node, entries, exits, octant, pushed.count,
                                               pushed.entries.data(), pushed.children.data());
             ASSERT_EQ(pushed, expected_of(node, entries, hit, octant)) << target << ", node " << i;
+        }
+    }
+}
+
+TEST(NodeStack, TakesChildrenFromTheHighestSlotDownOnEveryInstructionSet) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        NodeRandom random(9);
+        for (std::uint32_t bits = 0; bits < 256; ++bits) {
+            WideNode node = random_node(random);
+            // Any child, the root and leaves as well.
+            for (NodeRef& child : node.child) {
+                child = NodeRef::from_bits(static_cast<std::uint32_t>(random()));
+            }
+            node.child[random() % 8] = NodeRef::node(0);
+            const std::size_t below = random() % 20;
+            std::vector<std::uint32_t> stack(below);
+            for (std::uint32_t& child : stack) child = static_cast<std::uint32_t>(random());
+            std::vector<std::uint32_t> expected = stack;
+            for (std::size_t slot = 8; slot-- > 0;) {
+                if ((bits >> slot & 1) != 0) expected.push_back(node.child[slot].bits());
+            }
+            for (const bool at_once : {false, true}) {
+                std::vector<std::uint32_t> pushed = stack;
+                pushed.resize(below + 8);
+                pushed.resize(
+                    ALHAZEN_KERNEL(push_by_slots)(node, bits, at_once, below, pushed.data()));
+                ASSERT_EQ(pushed, expected) << target << ", children " << bits << ", " << at_once;
+            }
         }
     }
 }

@@ -1,9 +1,10 @@
 // A single ray that begins near the one before it takes the children of nodes by jumps, another by
-// their slots: the hits and the work are the same.
+// their slots, and in a large tree it fetches more: the hits and the work are the same.
 
 #include <gtest/gtest.h>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
@@ -20,10 +21,12 @@ struct Sequence {
 };
 /// With a ray from far away before each query, unless the rays are to follow one another.
 Sequence ask_one_by_one(const Aggregate& tested, const std::vector<Ray>& rays, bool follow) {
+    // Of one leaf, whose rays are all remembered.
+    static const auto elsewhere = make_aggregate("wide_bvh", random_triangles(1, 1, 1, 53));
     const auto go_away = [&](TraversalStats* stats) {
         const Ray far{{9, 9, 9}, {1, 0, 0}, 0, 1};
         if (follow) return;
-        ASSERT_FALSE(tested.occluded(far, stats));
+        ASSERT_FALSE(elsewhere->occluded(far, stats));
     };
     Sequence answers;
     TraversalStats skipped;
@@ -67,6 +70,28 @@ TEST(SingleRays, RaysThatFollowOneAnotherDoAndHitWhatOthersDo) {
             EXPECT_GT((near.*work).node_visits, rays.size()) << target;
             EXPECT_EQ((near.*work).node_visits, (apart.*work).node_visits) << target;
             EXPECT_EQ((near.*work).primitive_tests, (apart.*work).primitive_tests) << target;
+        }
+    }
+}
+
+TEST(SingleRays, RaysThatFollowNoneThroughALargeTreeHitWhatBatchesHit) {
+    const PrimitiveTable table = random_spheres(1000000, 1, 0.004, 54);
+    std::vector<Ray> rays;
+    RandomEngine random(55);
+    for (int i = 0; i < 2000; ++i) rays.push_back(random_rays(1)(random));
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tested = make_aggregate("wide_bvh", table);
+        const auto& nodes = dynamic_cast<const WideBvhAggregate&>(*tested).layout().tree.nodes;
+        ASSERT_GT(nodes.size() * sizeof(WideNode), std::size_t{6} << 20) << target;
+        std::vector<Hit> expected(rays.size());
+        tested->closest_batch(rays, expected, nullptr, Coherence::Any);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            Hit hit;
+            (void)tested->closest(rays[i], hit, nullptr);
+            ASSERT_TRUE(same(hit, expected[i])) << target << ": " << show(rays[i]);
+            ASSERT_EQ(tested->occluded(rays[i], nullptr), hit.found())
+                << target << ": " << show(rays[i]);
         }
     }
 }

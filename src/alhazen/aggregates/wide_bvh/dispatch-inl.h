@@ -37,13 +37,24 @@ HWY_INLINE bool begins_near_last(const LocalFrame& frame, const Ray& ray) {
     return (bits_of(moved <= D(kNear * frame.inverse_scale)) & 7) == 7;
 }
 
-/// `follows`: as in `traverse`.
+/// Whether it has about the direction of the last one that this function was asked about.
+HWY_INLINE bool goes_as_last(const NearbyRay& ray) {
+    using F = AxisLanes::F;
+    alignas(16) static thread_local float last[4];
+    const F direction = first_three(ray.direction);
+    const F turned = abs(direction - load_lanes<4>(last));
+    store_lanes(direction, last);
+    return (bits_of(turned <= F(0x1p-4f) * ray.length) & 7) == 7;
+}
+
+/// `near_last`: whether the ray begins near the last one.
 template <std::size_t W, class Query, class Stats>
-HWY_INLINE bool run(Query& query, bool follows, Stats stats) {
+HWY_INLINE bool run(Query& query, bool near_last, Stats stats) {
     if (!query.valid) return false;
     const WideBvh& tree = query.scene.layout->tree;
-    const bool stopped = traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root, query.slabs,
-                                                   follows, query, stats);
+    const bool stopped =
+        traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root, query.slabs,
+                                  near_last ? Follows::Origin : Follows::Nothing, query, stats);
     if constexpr (requires { query.finish(stats); }) query.finish(stats);
     return stopped;
 }

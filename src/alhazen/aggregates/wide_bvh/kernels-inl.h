@@ -22,20 +22,40 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// As closest_of_one, for every ray.
-template <std::size_t W, class Query>
-HWY_NOINLINE bool closest_of_any(const WideBvhScene& scene, const Ray& ray, Hit& hit) {
-    hit = Hit{};
-    const bool follows = begins_near_last(scene.layout->frame, ray);
-    Query query(scene, ray, hit);
-    run<W>(query, follows, NoStats{});
+HWY_INLINE bool is_found(const Hit& hit) {
     return hit.found();
 }
+HWY_INLINE bool is_found(bool occluded) {
+    return occluded;
+}
 
-/// Sets `hit` to the nearest hit, and returns whether there is one. Many rays meet no child of the
-/// root: they need no query, and are not prepared for leaves.
+/// As trace_one, for every ray.
+template <std::size_t W, class Query, class Result>
+HWY_NOINLINE bool trace_any(const WideBvhScene& scene, const Ray& ray, Result& result) {
+    result = Result{};
+    const bool follows = begins_near_last(scene.layout->frame, ray);
+    Query query(scene, ray, result);
+    run<W>(query, follows, NoStats{});
+    return is_found(result);
+}
+
+/// The bytes of nodes up to which most of a tree, whose leaves take several times as much, stays in
+/// the caches.
+inline constexpr std::size_t kMostInCaches = std::size_t{6} << 20;
+
+/// Continues a ray that follows no other in a larger tree. In a function of its own: what it does
+/// more would slow other rays.
 template <std::size_t W, class Query>
-HWY_INLINE bool closest_of_one(const WideBvhScene& scene, const Ray& ray, Hit& hit) {
+HWY_NOINLINE void traverse_far(const WideNodeOf<W>* nodes, NodeRef next, NodeStack<W>& stack,
+                               std::size_t height, Query& query) {
+    (void)traverse_from<true, true>(nodes, next, stack, height, query.slabs, Follows::Nothing,
+                                    query, NoStats{});
+}
+
+/// Sets `result`, of any value before, to that of the query, and returns whether anything is hit.
+/// Many rays meet no child of the root: they need no query, and are not prepared for leaves.
+template <std::size_t W, class Query, class Result>
+HWY_INLINE bool trace_one(const WideBvhScene& scene, const Ray& ray, Result& result) {
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     SlabLanes lanes;
@@ -43,28 +63,42 @@ HWY_INLINE bool closest_of_one(const WideBvhScene& scene, const Ray& ray, Hit& h
     if (HWY_UNLIKELY(root.is_leaf()) ||
         HWY_UNLIKELY(
             !start_nearby(layout.frame, Query::slab_slack(layout.frame), ray, lanes, nearby))) {
-        return closest_of_any<W, Query>(scene, ray, hit);
+        return trace_any<W, Query>(scene, ray, result);
     }
-    const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
+    const auto& tree_nodes = nodes_of<W>(layout.tree);
+    const WideNodeOf<W>* nodes = tree_nodes.data();
     const WideNodeOf<W>& node = nodes[root.index()];
     HWY_ALIGN float range[4];
     store_lanes(lanes.range, range);
     Lanes<float, W> entries;
     const LaneMask<float, W> met = intersect_children(node, lanes, range[0], range[1], entries);
     const std::uint32_t bits = bits_of(met);
-    hit = Hit{};
+    result = Result{};
     if (bits == 0) return false;
     // Before the first jump on the children: what follows one that was not foreseen begins late.
-    Query query(scene, ray, hit, lanes, range[1]);
+    Query query(scene, ray, result, lanes, range[1]);
     query.prepare_leaves(ray, nearby);
-    const bool follows = begins_near_last(layout.frame, ray);
+    Follows follows = begins_near_last(layout.frame, ray) ? Follows::Origin : Follows::Nothing;
+    if constexpr (!Query::kOrdered) {
+        const bool same_way = goes_as_last(nearby);
+        if (follows == Follows::Origin && same_way) follows = Follows::Way;
+    }
     NodeStack<W> stack;
     std::size_t height = 0;
-    const NodeRef next = next_child<true>(nodes, node, stack, height, entries, met, bits,
-                                          lanes.near.octant, follows, query);
-    (void)traverse_from<true>(nodes, next, stack, height, query.slabs, follows, query, NoStats{});
+    const NodeRef next = next_child<Query::kOrdered, false>(
+        nodes, node, stack, height, entries, met, bits, lanes.near.octant, follows, query);
+    if constexpr (Query::kOrdered) {
+        if (follows == Follows::Nothing && tree_nodes.size() * sizeof(node) > kMostInCaches &&
+            !next.is_leaf()) {
+            traverse_far(nodes, next, stack, height, query);
+            query.finish(NoStats{});
+            return is_found(result);
+        }
+    }
+    (void)traverse_from<Query::kOrdered>(nodes, next, stack, height, query.slabs, follows, query,
+                                         NoStats{});
     query.finish(NoStats{});
-    return hit.found();
+    return is_found(result);
 }
 
 /// `W` children per node. `Stats` is CountingStats, which adds to the statistics of a query, or
@@ -87,15 +121,19 @@ struct Kernels {
             closest(scene, ray, hit, stats);
             return hit.found();
         } else {
-            return alhazen::HWY_NAMESPACE::closest_of_one<W, Closest>(scene, ray, hit);
+            return trace_one<W, Closest>(scene, ray, hit);
         }
     }
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
         bool result = false;
-        const bool follows = begins_near_last(scene.layout->frame, ray);
-        Occluded query(scene, ray, result);
-        run<W>(query, follows, policy(stats));
-        return result;
+        if constexpr (Stats::kCounts) {
+            const bool follows = begins_near_last(scene.layout->frame, ray);
+            Occluded query(scene, ray, result);
+            run<W>(query, follows, policy(stats));
+            return result;
+        } else {
+            return trace_one<W, Occluded>(scene, ray, result);
+        }
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
                          TraversalStats* stats) {

@@ -87,7 +87,7 @@ class LaneLeaves : public LaneShapes<Derived> {
                 continue;
             }
             if (!traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
-                                             false, ray, stats)) {
+                                             Follows::Nothing, ray, stats)) {
                 ray.finish(stats);
             }
         }

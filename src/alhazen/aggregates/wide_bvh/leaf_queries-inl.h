@@ -530,9 +530,10 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     const BoxBlock* sure_block = nullptr;  ///< of a flat shape that occludes the ray; or null
     std::size_t sure_lane = 0;
 
-    template <class GivenRay>
-    HWY_INLINE OccludedQuery(const WideBvhScene& s, const GivenRay& r, bool& result)
-        : Base(s, r), occluded(result) {}
+    template <class GivenRay, class... Prepared>
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const GivenRay& r, bool& result,
+                             const Prepared&... prepared)
+        : Base(s, r, prepared...), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const typename Test::Found& found,

@@ -133,6 +133,31 @@ struct NodeStack {
         }
     }
 
+    /// Pushes the children of `bits`, if any, without their entries, those of the highest slots
+    /// first: with a jump for each, or without, for numbers of children that nobody foresees.
+    HWY_INLINE void push_one_by_one(std::size_t& height, const WideNodeOf<W>& node,
+                                    std::uint32_t bits) {
+        for (; bits != 0; bits &= ~(0x80000000u >> std::countl_zero(bits))) {
+            const auto slot = static_cast<std::size_t>(31 - std::countl_zero(bits));
+            child[height++] = node.child[slot].bits();
+        }
+    }
+    template <std::size_t kRegisters = kParts<float, W>>
+    HWY_INLINE void push_at_once(std::size_t& height, const WideNodeOf<W>& node,
+                                 std::uint32_t bits) {
+        if constexpr (kRegisters == 1) {
+            const Tag d;
+            const auto mask = hn::VecFromMask(d, lanes_of_bits<float, W>(bits).part[0]);
+            const auto children = hn::Load(d, reinterpret_cast<const float*>(node.child));
+            const auto first = first_lanes(hn::MaskFromVec(hn::Reverse(d, mask)));
+            hn::StoreU(first(hn::Reverse(d, children)), d,
+                       reinterpret_cast<float*>(child + height));
+            height += static_cast<std::size_t>(std::popcount(bits));
+        } else {
+            push_one_by_one(height, node, bits);
+        }
+    }
+
   private:
     using Tag = LaneTag<float, W>;
 

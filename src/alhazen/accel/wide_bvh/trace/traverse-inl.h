@@ -6,7 +6,7 @@
 /// lanes, but for one and two hit apart; the next by a jump that can be foreseen (`child_of`).
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
 /// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
-/// searched; boxes that begin exactly there are visited.
+/// searched; boxes that begin exactly there are visited. Any-hit queries leave it as it is.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
@@ -83,13 +83,16 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
     return entry <= exit;
 }
 
-/// The child of a slot. `follows`: by a jump to the load of each slot. A processor that foresees
+/// What a ray shares with the one before it: nothing, about the origin, or the direction as well.
+enum class Follows { Nothing, Origin, Way };
+
+/// The child of a slot. `jumps`: by a jump to the load of each slot. A processor that foresees
 /// the jump, because the rays before took it, fetches the child before the boxes are tested; one
 /// that does not loses the time of a branch.
 template <std::size_t W>
-HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool follows) {
+HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool jumps) {
     if constexpr (W == 8) {
-        if (follows) {
+        if (jumps) {
             switch (slot) {
                 case 0:
                     return node.child[0];
@@ -122,59 +125,71 @@ HWY_INLINE void fetch_child(const WideNodeOf<W>* nodes, NodeRef child, const Lea
     for (std::size_t i = 0; i < sizeof(*nodes); i += 64) hwy::Prefetch(node + i);
 }
 
+/// Fetches the child that the ray enters first of a node that it visits later: two ways through the
+/// tree wait for memory at the same time. The node has been fetched.
+template <std::size_t W, class Leaf>
+HWY_INLINE void fetch_beyond(const WideNodeOf<W>* nodes, NodeRef later, const SlabRay& ray,
+                             const Leaf& leaf) {
+    if (later.is_leaf()) return;
+    const WideNodeOf<W>& node = nodes[later.index()];
+    Lanes<float, W> entries;
+    const std::uint32_t hit = bits_of(intersect_children(node, ray, leaf.s_max, entries));
+    if (hit != 0) fetch_child(nodes, node.child[std::countr_zero(hit)], leaf);
+}
+
 /// The child to visit next of those that the ray meets (`met`, bits `hit`, not none); the others go
-/// onto the stack. Nearest first if `kOrdered`, else in the order of slots. `follows`: the ray
-/// probably takes the way of the one before it.
-template <bool kOrdered, std::size_t W, class Leaf>
+/// onto the stack. Nearest first if `kOrdered`, else in the order of slots, without entries.
+/// `kFar`: see traverse_from.
+template <bool kOrdered, bool kFar, std::size_t W, class Leaf>
 HWY_INLINE NodeRef next_child(const WideNodeOf<W>* nodes, const WideNodeOf<W>& node,
                               NodeStack<W>& stack, std::size_t& height,
                               const Lanes<float, W>& entries, const LaneMask<float, W>& met,
-                              std::uint32_t hit, std::uint32_t octant, bool follows,
+                              std::uint32_t hit, std::uint32_t octant, Follows follows,
                               const Leaf& leaf) {
-    const auto push = [&](float entry, NodeRef child) HWY_ATTR {
-        stack.entry[height] = entry;
-        stack.child[height++] = child.bits();
-    };
+    const bool jumps = follows != Follows::Nothing;
     const auto first = static_cast<std::size_t>(std::countr_zero(hit));
     std::uint32_t rest = hit & (hit - 1);
-    if (rest == 0) return child_of(node, first, follows);
+    if constexpr (!kOrdered) {
+        if (follows != Follows::Way) {
+            stack.push_at_once(height, node, rest);
+        } else if (rest != 0) {
+            stack.push_one_by_one(height, node, rest);
+        }
+        return child_of(node, first, jumps);
+    }
+    if (rest == 0) return child_of(node, first, jumps);
     const auto second = static_cast<std::size_t>(std::countr_zero(rest));
     rest &= rest - 1;
-    if constexpr (kOrdered) {
-        // One is visited as soon as it is known which, the other later.
-        if constexpr (requires { leaf.fetch(NodeRef()); }) {
-            fetch_child(nodes, node.child[first], leaf);
-            fetch_child(nodes, node.child[second], leaf);
+    // One is visited as soon as it is known which, the other later.
+    if constexpr (requires { leaf.fetch(NodeRef()); }) {
+        fetch_child(nodes, node.child[first], leaf);
+        fetch_child(nodes, node.child[second], leaf);
+        if constexpr (kFar) {
+            for (std::uint32_t others = rest; others != 0; others &= others - 1) {
+                fetch_child(nodes, node.child[std::countr_zero(others)], leaf);
+            }
         }
-        // Nobody foresees which of two is nearer, unless rays follow each other.
-        if (rest != 0 || !follows) {
-            const std::size_t nearest =
-                stack.push_but_nearest(height, node, entries, met, hit, octant);
-            return child_of(node, nearest, follows);
-        }
+    }
+    // Nobody foresees which of two is nearer, unless rays follow each other.
+    if (rest != 0 || !jumps) {
+        const std::size_t nearest = stack.push_but_nearest(height, node, entries, met, hit, octant);
+        return child_of(node, nearest, jumps);
     }
     HWY_ALIGN float entry[W];
     store_lanes(entries, entry);
-    if constexpr (kOrdered) {
-        const bool swap = is_nearer<W>(entry[second], entry[first]);
-        const std::size_t later = swap ? first : second;
-        push(entry[later], node.child[later]);
-        return child_of(node, swap ? second : first, follows);
-    } else {
-        for (; rest != 0; rest &= ~(0x80000000u >> std::countl_zero(rest))) {
-            const auto slot = static_cast<std::size_t>(31 - std::countl_zero(rest));
-            push(entry[slot], node.child[slot]);
-        }
-        push(entry[second], node.child[second]);
-        return child_of(node, first, follows);
-    }
+    const bool swap = is_nearer<W>(entry[second], entry[first]);
+    const std::size_t later = swap ? first : second;
+    stack.entry[height] = entry[later];
+    stack.child[height++] = node.child[later].bits();
+    return child_of(node, swap ? second : first, jumps);
 }
 
 /// Visits the leaves that the ray meets in the subtrees of `ref` and of the stack, nearest first if
 /// `kOrdered`, else in the order of slots, until `leaf.visit` returns true; returns whether it did.
-template <bool kOrdered, std::size_t W, class Leaf, class Stats>
+/// `kFar`: its way lies beyond the caches, so that more of it is fetched.
+template <bool kOrdered, bool kFar = false, std::size_t W, class Leaf, class Stats>
 HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack<W>& stack,
-                              std::size_t height, const SlabRay& ray, bool follows, Leaf& leaf,
+                              std::size_t height, const SlabRay& ray, Follows follows, Leaf& leaf,
                               Stats stats) {
     while (true) {
         if (ref.is_leaf()) {
@@ -189,8 +204,13 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
             const LaneMask<float, W> met = intersect_children(node, ray, leaf.s_max, entries);
             const std::uint32_t hit = bits_of(met);
             if (hit != 0) {
-                ref = next_child<kOrdered>(nodes, node, stack, height, entries, met, hit,
-                                           ray.near.octant, follows, leaf);
+                ref = next_child<kOrdered, kFar>(nodes, node, stack, height, entries, met, hit,
+                                                 ray.near.octant, follows, leaf);
+                if constexpr (kFar) {
+                    if ((hit & (hit - 1)) != 0) {
+                        fetch_beyond(nodes, NodeRef::from_bits(stack.child[height - 1]), ray, leaf);
+                    }
+                }
                 continue;
             }
         }
@@ -198,6 +218,7 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
         do {
             if (height == 0) return false;
             --height;
+            if constexpr (!kOrdered) break;
         } while (std::bit_cast<std::int32_t>(stack.entry[height]) >
                  std::bit_cast<std::int32_t>(leaf.s_max));
         ref = NodeRef::from_bits(stack.child[height]);
@@ -206,8 +227,8 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
 
 /// `traverse_from` the root of the tree.
 template <bool kOrdered, std::size_t W, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, bool follows,
-                         Leaf& leaf, Stats stats) {
+HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray,
+                         Follows follows, Leaf& leaf, Stats stats) {
     NodeStack<W> stack;
     return traverse_from<kOrdered>(nodes, root, stack, 0, ray, follows, leaf, stats);
 }
