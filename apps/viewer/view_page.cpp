@@ -5,10 +5,10 @@
 namespace alhazen::viewer {
 
 std::vector<Asset> view_page() {
-    return {{"/", "text/html; charset=utf-8", std::string(kViewPage)},
-            {"/view.js", "text/javascript; charset=utf-8", std::string(kViewScript)},
+    return {{"/", "text/html; charset=utf-8", to_string(kViewPage)},
+            {"/view.js", "text/javascript; charset=utf-8", to_string(kViewScript)},
             {"/view.css", "text/css; charset=utf-8",
-             std::string(kExplanationStyle) + std::string(kViewStyle)}};
+             to_string(kExplanationStyle) + to_string(kViewStyle)}};
 }
 
 }  // namespace alhazen::viewer

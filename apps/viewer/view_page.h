@@ -1,17 +1,17 @@
 #pragma once
 /// The files of the viewer's page, embedded in the program.
 
-#include <string_view>
 #include <vector>
 
+#include "alhazen/base/embedded_text.h"
 #include "http_server.h"
 
 namespace alhazen {
 
 // Generated from page/ by the build.
-extern const std::string_view kViewPage;
-extern const std::string_view kViewScript;
-extern const std::string_view kViewStyle;
+extern const EmbeddedText kViewPage;
+extern const EmbeddedText kViewScript;
+extern const EmbeddedText kViewStyle;
 
 namespace viewer {
 

@@ -247,12 +247,12 @@ void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
 /// Traces `count` rays at one solid on all cores; the report does not depend on their number.
 void check_solid(const ExactSolid& solid, std::uint64_t seed, std::uint64_t count,
                  const VerifyOptions& options, SharedProgress& progress, ExactReport& report) {
-    constexpr std::size_t kRaysOfPart = 64, kMostParts = 256;
+    constexpr std::size_t kRaysOfPart = 64, kMostPartsAtOnce = 256;
     ExactRays rays(*solid.aggregate, seed);
     std::vector<VerifyRays::Sample> samples;
     for (std::uint64_t done = 0; done < count; done += samples.size()) {
         samples.clear();
-        while (samples.size() < kRaysOfPart * kMostParts && done + samples.size() < count) {
+        while (samples.size() < kRaysOfPart * kMostPartsAtOnce && done + samples.size() < count) {
             samples.push_back(rays.next());
         }
         std::vector<ExactReport> parts((samples.size() + kRaysOfPart - 1) / kRaysOfPart);

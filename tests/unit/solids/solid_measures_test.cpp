@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "alhazen/base/error.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/solids/stratified_chords.h"
 #include "closed_forms.h"
 #include "support/random.h"
@@ -471,7 +472,6 @@ TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
 TEST(SolidMeasures, LimitsAreNumbersFromZero) {
     const LoneScene sphere(known_solids()[0]);
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto refused = [&](const MeasureOptions& options) {
         const SectionPlane beside{.normal = {0, 0, 1}, .offset = 1e3};
         EXPECT_THROW((void)section_area(sphere.solid, beside, options), Error);

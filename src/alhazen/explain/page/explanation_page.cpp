@@ -33,7 +33,7 @@ std::string explanation_page(const Explanation& e) {
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
         "data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n";
     page += fmt::format("<title>{}</title>\n<style>", title);
-    page += kExplanationStyle;
+    append(page, kExplanationStyle);
     page += "</style>\n</head>\n<body>\n<main id=\"explanation\">";
     page += fmt::format("<h1>{}</h1><noscript>This page draws the data in it by a script.", title);
     page += "</noscript></main>\n<script type=\"application/json\" id=\"data\">";
@@ -41,7 +41,7 @@ std::string explanation_page(const Explanation& e) {
     page += "</script>\n<script type=\"application/json\" id=\"preview\">";
     page += e.preview.samples.empty() ? "null" : fmt::format("\"{}\"", png_data_uri(e.preview));
     page += "</script>\n<script type=\"module\">";
-    page += kExplanationScript;
+    append(page, kExplanationScript);
     page += "</script>\n</body>\n</html>\n";
     return page;
 }

@@ -6,8 +6,8 @@
 /// only, never as markup.
 
 #include <string>
-#include <string_view>
 
+#include "alhazen/base/embedded_text.h"
 #include "alhazen/explain/explanation.h"
 
 namespace alhazen {
@@ -16,7 +16,7 @@ namespace alhazen {
 
 /// Style and script (the bundle of page/*.ts made by scripts/page), which show the data in the
 /// page.
-extern const std::string_view kExplanationStyle;
-extern const std::string_view kExplanationScript;
+extern const EmbeddedText kExplanationStyle;
+extern const EmbeddedText kExplanationScript;
 
 }  // namespace alhazen

@@ -193,10 +193,11 @@ class Finder {
     /// False if the polynomial is constant or the range not finite.
     static bool set_coefficients(const LocalEquation& equation, Interval range, const Ray& ray,
                                  PolynomialOnRay& p) {
-        constexpr double kMargin = 0.15;  // margin, so that roots are visible from both sides
+        constexpr double kMarginOfRange =
+            0.15;  // margin, so that roots are visible from both sides
         if (!std::isfinite(range.lo)) range.lo = p.roots.empty() ? 0.0 : p.roots.front() - 1.0;
         if (!std::isfinite(range.hi)) range.hi = p.roots.empty() ? 10.0 : p.roots.back() + 1.0;
-        const double margin = kMargin * (range.hi - range.lo);
+        const double margin = kMarginOfRange * (range.hi - range.lo);
         p.from = std::max(range.lo - margin, 0.0);
         p.to = range.hi + margin;
         const PolynomialExpression polynomial(equation.text);

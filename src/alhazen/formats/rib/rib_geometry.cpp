@@ -111,9 +111,10 @@ struct RibSpan {
 
 bool read_rib_span(const RibRequest& request, std::size_t argument, bool bicubic, int step,
                    RibSpan& span, RibScene& scene) {
-    constexpr int kMost = 100'000'000;
+    constexpr int kMostPoints = 100'000'000;
     const int order = bicubic ? 4 : 2;
-    if (!read_rib_count(request, argument, "the number of points", 2, kMost, span.points, scene)) {
+    if (!read_rib_count(request, argument, "the number of points", 2, kMostPoints, span.points,
+                        scene)) {
         return false;
     }
     const std::string* wrap = request.string(argument + 1);
@@ -186,8 +187,9 @@ bool check_rib_knots(const RibKnots& k, const RibPlace& place, RibScene& scene) 
 }
 
 bool read_rib_knots(const RibRequest& request, std::size_t first, RibKnots& out, RibScene& scene) {
-    constexpr int kMost = 1'000'000;
-    if (!read_rib_count(request, first, "the number of points", 2, kMost, out.points, scene) ||
+    constexpr int kMostPoints = 1'000'000;
+    if (!read_rib_count(request, first, "the number of points", 2, kMostPoints, out.points,
+                        scene) ||
         !read_rib_count(request, first + 1, "the order", 2, kMaxPatchOrder, out.order, scene)) {
         return false;
     }

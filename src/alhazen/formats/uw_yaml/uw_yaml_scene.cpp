@@ -127,7 +127,7 @@ void UwSceneReader::read_node(const YAML::Node& node, const Affine& world_from_p
 }
 
 UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& component) {
-    static const std::array<std::pair<std::string_view, ReadComponent>, 14> kReaders{{
+    static const std::array<std::pair<std::string_view, ReadComponent>, 14> kComponentReaders{{
         {"Transform", &UwSceneReader::nothing},  // read before all others
         {"EnvironmentMap", &UwSceneReader::environment_map},
         {"Sphere", &UwSceneReader::sphere},
@@ -143,7 +143,7 @@ UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& compone
         {"AreaLight", &UwSceneReader::area_light},
         {"Camera", &UwSceneReader::camera},
     }};
-    for (const auto& [name, read] : kReaders) {
+    for (const auto& [name, read] : kComponentReaders) {
         if (name == component) return read;
     }
     return nullptr;

@@ -14,8 +14,8 @@ namespace alhazen {
 namespace {
 
 /// Number of points up to which they are kept as they are.
-constexpr std::size_t kFew = 10;
-constexpr double kFlat = 1e-11;
+constexpr std::size_t kFewPoints = 10;
+constexpr double kFlatHull = 1e-11;
 
 bool comes_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -30,7 +30,7 @@ struct HullFace {
 class HullMaker {
   public:
     HullMaker(const std::vector<Vec3>& points, double extent)
-        : points_(points), margin_(kFlat * extent) {}
+        : points_(points), margin_(kFlatHull * extent) {}
 
     /// False if the points lie in a plane, or rounding made the result invalid.
     bool make() {
@@ -220,7 +220,7 @@ std::vector<Vec3> polytope_around(const std::vector<Vec3>& points, const Extent&
 void reduce_to_hull(std::vector<Vec3>& points, std::size_t most) {
     std::sort(points.begin(), points.end(), comes_before);
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() <= kFew) return;
+    if (points.size() <= kFewPoints) return;
     const Extent extent = extent_of(points);
     std::vector<Vec3> corners;
     if (points.size() <= most + most / 4) {

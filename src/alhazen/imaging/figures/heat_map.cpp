@@ -41,12 +41,12 @@ Rgb path_color(double t) {
     return {srgb_from_linear(c.r), srgb_from_linear(c.g), srgb_from_linear(c.b)};
 }
 
-constexpr int kSteps = 256;
+constexpr int kHeatSteps = 256;
 
-std::array<Rgb, kSteps> make_table() {
-    std::array<Rgb, kSteps> table;
-    for (int i = 0; i < kSteps; ++i) {
-        table[static_cast<std::size_t>(i)] = path_color(static_cast<double>(i) / (kSteps - 1));
+std::array<Rgb, kHeatSteps> make_table() {
+    std::array<Rgb, kHeatSteps> table;
+    for (int i = 0; i < kHeatSteps; ++i) {
+        table[static_cast<std::size_t>(i)] = path_color(static_cast<double>(i) / (kHeatSteps - 1));
     }
     return table;
 }
@@ -54,9 +54,9 @@ std::array<Rgb, kSteps> make_table() {
 }  // namespace
 
 Rgb heat_color(double t) {
-    static const std::array<Rgb, kSteps> table = make_table();
+    static const std::array<Rgb, kHeatSteps> table = make_table();
     const double clamped = t > 0.0 ? std::min(t, 1.0) : 0.0;
-    return table[static_cast<std::size_t>(std::lround(clamped * (kSteps - 1)))];
+    return table[static_cast<std::size_t>(std::lround(clamped * (kHeatSteps - 1)))];
 }
 
 }  // namespace alhazen

@@ -22,7 +22,6 @@ PatchTables::PatchTables(const ScanScene& scene, const ScreenView& view, const S
                          const ScanLineOptions& options, bool keeps_seams)
     : scene_(scene),
       view_(view),
-      grid_(grid),
       subdivision_(view, grid, options, options.flatness, keeps_seams),
       pool_(largest_net(scene)),
       buckets_(static_cast<std::size_t>(grid.rows()), kNoPatch) {

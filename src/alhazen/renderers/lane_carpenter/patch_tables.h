@@ -69,7 +69,6 @@ class PatchTables {
 
     const ScanScene& scene_;
     ScreenView view_;
-    const SampleGrid& grid_;
     Subdivision subdivision_;
     SubPatchPool pool_;
     std::vector<std::uint32_t> buckets_;  ///< [row] the patch table

@@ -1,8 +1,8 @@
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
@@ -105,10 +105,9 @@ void PathTracer::bounce(bool first) {
             Spectrum& sum = light_[path.sample];
             if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
             if (point == nullptr) {
-                constexpr double kEndless = std::numeric_limits<double>::infinity();
                 const Medium* const medium = path.media.here();
                 const bool scatters = medium != nullptr && media_.in(*medium) != nullptr;
-                if (scatters && cross_medium(path, *medium, rays_[k], kEndless, sum)) return;
+                if (scatters && cross_medium(path, *medium, rays_[k], kInfinity, sum)) return;
                 if (!escapes_later_) return escape(path, rays_[k], sum);
                 escaped_.push_back(static_cast<std::uint32_t>(k));
                 return;

@@ -18,7 +18,7 @@ std::unique_ptr<Sampler> make_of_kind(std::uint64_t seed, std::uint32_t count) {
 }  // namespace
 
 std::span<const SamplerEntry> samplers() {
-    static constexpr std::array<SamplerEntry, 10> kTable{{
+    static constexpr std::array<SamplerEntry, 10> kSamplers{{
         {"regular", "centres of a grid's cells, the same in every pixel", false, 0.75,
          make_of_kind<RegularSampler>},
         {"jittered", "a random point in each cell of a grid", false, 0.75,
@@ -41,7 +41,7 @@ std::span<const SamplerEntry> samplers() {
         {"independent", "independent random points, progressive", true, 0.5,
          make_of_kind<IndependentSampler>},
     }};
-    return kTable;
+    return kSamplers;
 }
 
 const SamplerEntry* find_sampler(const std::string& name) {

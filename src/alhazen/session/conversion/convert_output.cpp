@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxSceneText = std::uint64_t{64} << 20;
 
 bool is_scene_text(const fs::path& path) {
-    static constexpr std::array<std::string_view, 6> kSuffixes{".alhazen", ".mtl", ".gltf",
-                                                               ".yaml",    ".yml", ".ray"};
+    static constexpr std::array<std::string_view, 6> kTextSuffixes{".alhazen", ".mtl", ".gltf",
+                                                                   ".yaml",    ".yml", ".ray"};
     const std::string suffix = lower_suffix(path);
-    return std::find(kSuffixes.begin(), kSuffixes.end(), suffix) != kSuffixes.end();
+    return std::find(kTextSuffixes.begin(), kTextSuffixes.end(), suffix) != kTextSuffixes.end();
 }
 
 /// Adds the names after each "_files/" of a text, if a conversion can create them.

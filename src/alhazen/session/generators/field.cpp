@@ -16,7 +16,7 @@ namespace {
 constexpr int kBlades = 125, kTrianglesOfBlade = 8;
 constexpr std::uint64_t kTuftTriangles = kBlades * kTrianglesOfBlade;
 constexpr double kTuftWidth = 0.3;
-constexpr std::uint64_t kSide = 10;  ///< of a patch in tufts, of a plot in patches, ...
+constexpr std::uint64_t kFieldSide = 10;  ///< of a patch in tufts, of a plot in patches, ...
 constexpr std::size_t kVariants = 4;
 /// Maximum number of top-level units laid out in rows.
 constexpr std::uint64_t kMaxRows = 4096;
@@ -154,12 +154,14 @@ Rows make_field(std::uint64_t triangles, SceneDescription& scene) {
     std::uint64_t size = kTuftTriangles;
     bool tufts = true;
     const auto count = [&] { return (triangles - 1) / size + 1; };
-    for (; count() > kMaxRows; size *= kSide * kSide, width *= kSide, tufts = false) {
+    for (; count() > kMaxRows;
+         size *= kFieldSide * kFieldSide, width *= kFieldSide, tufts = false) {
         Variants larger;
         for (ObjectIndex& object : larger) {
             object = add_object(scene, "plot");
-            const Vec3 to_middle{0, -0.5 * width * kSide, 0};
-            lay_out(scene, object, {kSide, kSide, width}, to_middle, units, tufts, random);
+            const Vec3 to_middle{0, -0.5 * width * kFieldSide, 0};
+            lay_out(scene, object, {kFieldSide, kFieldSide, width}, to_middle, units, tufts,
+                    random);
         }
         units = larger;
     }
@@ -187,7 +189,7 @@ SceneDescription field_of_grids(std::uint64_t triangles) {
     };
     for (ObjectDescription& object : scene.objects) {
         if (object.name == "tuft") object.accelerator = "uniform_grid";
-        if (object.name == "plot") object.accelerator = grid_of(kSide, kSide);
+        if (object.name == "plot") object.accelerator = grid_of(kFieldSide, kFieldSide);
         if (object.name == "rows") object.accelerator = grid_of(rows.columns, rows.rows);
     }
     return scene;

@@ -16,7 +16,7 @@ namespace {
 using Kind = SolidFace::Kind;
 using Line = std::array<Vec3, 2>;  ///< a point and a direction
 
-constexpr int kSamples = SolidCurveParts::kSamples;
+constexpr int kCurveSamples = SolidCurveParts::kSamples;
 /// Circles in which bodies cross are contacts below this radius, relative to the smaller body:
 /// spheres that penetrate each other by 5e-5 of their radius.
 constexpr double kContact = 3e-3;
@@ -235,8 +235,8 @@ class SolidCurveFinder {
         const auto value = [&](double angle) {
             return other.value(between.point(frame.line(angle)[0]));
         };
-        for (int k = 0; k < kSamples; ++k) {
-            double lo = 2 * kPi * k / kSamples, hi = 2 * kPi * (k + 1) / kSamples;
+        for (int k = 0; k < kCurveSamples; ++k) {
+            double lo = 2 * kPi * k / kCurveSamples, hi = 2 * kPi * (k + 1) / kCurveSamples;
             const bool in = value(lo) < 0.0;
             if ((value(hi) < 0.0) == in) continue;
             for (int n = 0; n < 60; ++n)

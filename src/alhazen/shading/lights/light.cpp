@@ -70,10 +70,10 @@ Light ready_to_sample(const Light& light) {
                           [](DirectionalLight& l) { l.to_light = normalize(l.to_light); },
                           [](PointLight&) {},
                           [](SpotLight& l) {
-                              constexpr double kMargin = 1e-12;
+                              constexpr double kMarginOfCosine = 1e-12;
                               l.direction = normalize(l.direction);
-                              l.sure.within = std::cos(l.inner_angle) + kMargin;
-                              l.sure.beyond = std::cos(l.outer_angle) - kMargin;
+                              l.sure.within = std::cos(l.inner_angle) + kMarginOfCosine;
+                              l.sure.beyond = std::cos(l.outer_angle) - kMarginOfCosine;
                           },
                           [](AreaLight& l) {
                               l.surface =

@@ -20,7 +20,7 @@ class OneWay {
   public:
     explicit OneWay(bool inward) : inward_(inward) {
         const int kX = inward ? 24 : 40;
-        constexpr int kY = 15, kZ = 10, kMeans = 33;
+        constexpr int kY = 15, kZ = 10, kMeansOfAxis = 33;
         std::vector<double> sums;
         reflected_ = CubicTable<3>({kZ, kY, kX}, [&](const std::array<double, 3>& p) {
             const double alpha = AlbedoAxes::alpha_of(p[1]);
@@ -31,7 +31,7 @@ class OneWay {
         });
         std::size_t next = 0;
         sum_ = CubicTable<3>({kZ, kY, kX}, [&](const auto&) { return sums[next++]; });
-        mean_ = CubicTable<2>({kMeans, kMeans}, [&](const std::array<double, 2>& p) {
+        mean_ = CubicTable<2>({kMeansOfAxis, kMeansOfAxis}, [&](const std::array<double, 2>& p) {
             const double alpha = AlbedoAxes::alpha_of(p[1]), eta = eta_of(p[0]);
             return hemispherical_mean([&](double mu) { return at(mu, alpha, eta).sum; });
         });

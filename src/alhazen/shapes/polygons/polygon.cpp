@@ -309,7 +309,8 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
         const double slack = t_slack * std::abs(ray.direction[k]) +
                              gamma_bound(16) * (std::abs(ray.origin[k]) + size[k]);
         if (p + slack < bounds.lo[k] || p - slack > bounds.hi[k]) return 0;
-        const bool within = (bounds.lo[k] < p - slack) & (p + slack < bounds.hi[k]);
+        const bool from_low = bounds.lo[k] < p - slack, from_high = p + slack < bounds.hi[k];
+        const bool within = from_low & from_high;  // no branch
         near_faces |= std::uint32_t{!within} << k;
     }
     // Most rays that start this near to the polygon leave it.
