@@ -48,8 +48,10 @@ struct Share {
                               some_empty = true;
                           }
                       });
+        // `padded` has another margin for infinite boxes than the lanes.
+        if (!within_reach(all.box())) return include_others(table, begin, end);
         box.include(all.box());
-        bounded = bounded && !some_empty && within_reach(all.box());
+        bounded = bounded && !some_empty;
     }
 };
 
