@@ -211,8 +211,13 @@ void append_pieces(const Lathe& shape, std::vector<BezierPiece>& pieces) {
         }
         if (on_axis) continue;
         // A ring's normal is to the right of its profile's direction.
-        if (normal_is_left(shape, part)) std::reverse(profile.begin(), profile.end());
+        const bool reversed = normal_is_left(shape, part);
+        if (reversed) std::reverse(profile.begin(), profile.end());
+        const std::size_t first = pieces.size();
         frame.append(profile, part, pieces);
+        if (!reversed) continue;
+        for (std::size_t k = first; k < pieces.size(); ++k)
+            std::swap(pieces[k].lo.y, pieces[k].hi.y);
     }
 }
 
