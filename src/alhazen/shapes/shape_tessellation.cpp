@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 #include "alhazen/geometry/polygon/triangulate.h"
@@ -205,6 +206,12 @@ std::string append(const Polyhedron& shape, double, std::uint64_t, TriangleMesh&
         std::vector<Vec3> face;
         for (; corner < end; ++corner) face.push_back(shape.vertices[shape.corners[corner]]);
         const std::uint32_t part = plane_of(shape, face, index++);
+        // Faces may be given in either order.
+        std::vector<std::uint32_t> loop(face.size());
+        std::iota(loop.begin(), loop.end(), 0u);
+        if (dot(newell_normal(face, loop), shape.faces[part].normal) < 0.0) {
+            std::reverse(face.begin(), face.end());
+        }
         append_face(
             face, [&](std::size_t k) { return uv_at(shape, face[k], part); }, mesh);
     }
