@@ -5,6 +5,7 @@ Usage: conversions_test.py ALHAZEN SOURCE_FOLDER
 """
 
 import json
+import math
 import os
 import pathlib
 import random
@@ -67,6 +68,93 @@ difference "bored" {
             volumes.append(sum(solid["volume"]["value"] for solid in solids))
         exact, volume = volumes
         self.assertAlmostEqual(volume, exact, delta=0.05 * (12.6 + 12 + 29))
+
+    def test_triangles_have_the_textures_of_the_shapes(self):
+        self.write_waves("waves.pfm")
+        shapes = {
+            "sphere": "sphere { radius = 1; MATERIAL }",
+            "ellipsoid": "ellipsoid { axis_a = (1, 0, 0); axis_b = (0, 0.7, 0.3); axis_c = (0, 0, 0.7); MATERIAL }",
+            "disc": "disc { radius = 1; inner_radius = 0.4; MATERIAL }",
+            "cylinder": "cylinder { base = (0, -0.8, 0); top = (0, 0.8, 0.3); radius = 0.7; MATERIAL }",
+            "cone": "cone { base = (0, -0.8, 0); top = (0, 0.8, 0.3); base_radius = 0.8; MATERIAL }",
+            "torus": "torus { major_radius = 0.7; minor_radius = 0.25; MATERIAL }",
+            "paraboloid": "paraboloid { transform = scale(0.8); MATERIAL }",
+            "box": "box { lo = (-0.8, -0.7, -0.6); hi = (0.6, 0.7, 0.8); MATERIAL }",
+            "polygon": "polygon { vertices = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]; MATERIAL }",
+            "height_field": "height_field { columns = 3; heights = [0, 0.1, 0.2, 0.1, 0.3, 0.2, 0, 0.4, 0.1]; lo = (-1, -1); hi = (1, 1); MATERIAL }",
+            "lathe": "lathe { profile = [(0, -0.9), (0.9, -0.9), curve((0.9, 0), (0.5, 0.8), (0.3, 0.8)), (0, 0.8)]; MATERIAL }",
+            "steiner_patch": "steiner_patch { points = [(-1, -1, 0), (0, -1, 0.5), (0, 0, 0), (0, -0.5, 0.2), (0.5, 0.5, 0), (0, 1, 0)]; MATERIAL }",
+            "superellipsoid": "superellipsoid { east = 0.8; north = 0.8; MATERIAL }",
+            "blob": "blob { components = [sphere((-0.2, 0, 0), 1.2, 1), sphere((0.4, 0, 0), 1, 1)]; MATERIAL }",
+            "prism": "prism { profile = [(-0.7, -0.7), (0.7, -0.7), curve((0.7, 0), (0.7, 0.7), (0, 0.7)), (-0.7, -0.7)]; h0 = -0.5; h1 = 0.5; MATERIAL }",
+            "difference": "difference { MATERIAL; box { lo = (-0.8, -0.8, -0.8); hi = (0.8, 0.8, 0.8) } sphere { center = (0.8, 0.8, 0.8); radius = 0.7 } }",
+            "mirrored": "object \"o\" { sphere { radius = 0.8; MATERIAL } torus { major_radius = 0.9; minor_radius = 0.1; MATERIAL } } instance \"o\" { transform = scale(-1, 1, 1) }",
+            "nurbs_surface": "nurbs_surface { degree_u = 1; degree_v = 1; knots_u = [0, 0, 2, 2]; knots_v = [0, 0, 1, 1]; points = [(-1, -1, 0), (-1, 1, 0), (1, -1, 0), (1, 1, 0)]; transform = scale(-1, 1, 1); MATERIAL }",
+        }
+        for name, text in shapes.items():
+            with self.subTest(name):
+                scene = self.textured(text.replace("MATERIAL", 'material = "m"'))
+                exact = self.picture(scene, "ray_casting")
+                for way in "beam_tracing", "OBJ":
+                    if way == "OBJ":
+                        scene = self.back_from_obj(scene, "--tolerance", "0.01")
+                    picture = self.picture(scene, "ray_casting" if way == "OBJ" else "beam_tracing:tolerance=0.01")
+                    both = [k for k in range(0, len(exact), 3) if exact[k] != 0 and picture[k] != 0]
+                    self.assertGreater(len(both), 100, way)
+                    off = sum(max(abs(exact[k + c] - picture[k + c]) for c in range(3)) > 0.1 for k in both)
+                    self.assertLess(off, 0.02 * len(both), way)
+
+    def write_waves(self, name):
+        """A picture that repeats without a seam and differs by u, by v, and by their directions."""
+        size, wave = 64, lambda turns: 0.55 + 0.4 * math.sin(2 * math.pi * turns)
+        texels = [[wave(x / size), wave(x / size + 0.25), wave(y / size + 0.1)] for y in range(size) for x in range(size)]
+        data = b"".join(struct.pack("<3f", *texel) for texel in texels)
+        with open(self.path(name), "wb") as file:
+            file.write(b"PF\n%d %d\n-1.0\n" % (size, size) + data)
+
+    VIEW = ("alhazen 1\northographic_camera { eye = (3, 4, 10); look_at = (0, 0, 0); up = (0, 1, 0); height = 3; aspect = 1 }\n"
+            "ambient_light { color = 1 }\n")
+
+    def picture(self, path, renderer):
+        result = run("render", path, "-q", "-o", self.path("out.pfm"), "--size", "48x48", "--renderer", renderer)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return struct.unpack("<%df" % (3 * 48 * 48), self.read("out.pfm")[-12 * 48 * 48:])
+
+    def textured(self, text):
+        return self.write("shape.alhazen", self.VIEW + 'texture "t" { file = "waves.pfm"; filter = mipmapped }\n'
+                          'material "m" { diffuse = texture("t"); ambient = texture("t") }\n' + text + "\n")
+
+    def back_from_obj(self, scene, *options):
+        result = run("convert", scene, self.path("out.obj"), *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run("convert", self.path("out.obj"), self.path("back.alhazen"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.write("viewed.alhazen", self.read("back.alhazen").decode().replace("alhazen 1\n", self.VIEW, 1))
+
+    def test_mirrored_patches_keep_their_textures_in_an_obj(self):
+        self.write_waves("waves.pfm")
+        net = "degree_u = 1; degree_v = 2; points = [(-1, -1, 0), (-1, 0, 0.5), (-1, 1, 0), (1, -1, 0), (0.9, 0, 0), (0.8, 1, 0)]"
+        for text in ("bezier_patch { " + net, "nurbs_surface { knots_u = [1, 1, 3, 3]; knots_v = [0, 0, 0, 1, 1, 1]; " + net,
+                     "nurbs_surface { knots_u = [1, 1, 3, 3]; knots_v = [0, 0, 0, 1, 1, 1]; "
+                     "trims = [[polyline((1.1, 0.1), (2.5, 0.2), (2, 0.9), (1.1, 0.1))]]; " + net):
+            with self.subTest(text):
+                both = "%s; material = \"m\" }\n" % text
+                scene = self.textured(both.replace("}", "; transform = scale(-1, 1, 1) }"))
+                exact, back = self.picture(scene, "ray_casting"), self.picture(self.back_from_obj(scene), "ray_casting")
+                self.assertGreater(sum(value != 0 for value in exact), 300)
+                self.assertLess(max(abs(a - b) for a, b in zip(exact, back)), 1e-4)
+
+    def test_an_obj_loses_the_normal_map_of_mirrored_patches_alone(self):
+        self.write_waves("waves.pfm")
+        for transform, loses in ("scale(-1, 1, 1)", True), ("scale(1, -1, -1)", False):
+            scene = self.write("mapped.alhazen", '''alhazen 1
+texture "t" { file = "waves.pfm" }
+material "m" { normal_map = texture("t") }
+bilinear_patch { material = "m"; transform = %s }
+''' % transform)
+            result = run("convert", scene, self.path("out.obj"), "--strict")
+            self.assertEqual(result.returncode, 3 if loses else 0, result.stderr)
+            self.assertEqual("error: the MTL file cannot express the normal map of mirrored patches (material 'm')" in result.stderr, loses)
 
     def test_what_has_no_triangles_is_refused_or_stays(self):
         scene = self.write("plane.alhazen", "alhazen 1\nsphere { radius = 1 }\nplane \"floor\" { point = (0, -1, 0) }\n")

@@ -245,12 +245,14 @@ void IsolatedSolid::cross(const Ray& ray, bool want_cosines, LineSpans& found) c
     }
 }
 
-void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found) const {
+void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found,
+                              std::vector<Hit>* hits) const {
     const Ray inner = transformed(world_.inner_from_outer, ray);
-    std::vector<Hit> hits;
-    aggregate_->all_hits(inner, hits, nullptr);
+    std::vector<Hit> own;
+    aggregate_->all_hits(inner, own, nullptr);
     const Mat3& m = world_.outer_from_inner.linear;
-    for (const Hit& hit : hits) {
+    if (hits != nullptr) hits->insert(hits->end(), own.begin(), own.end());
+    for (const Hit& hit : own) {
         const Surface s = surface_at(*aggregate_, inner, hit);
         const Vec3 error =
             s.error.x * abs(m.x_axis) + s.error.y * abs(m.y_axis) + s.error.z * abs(m.z_axis);
@@ -258,6 +260,15 @@ void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found) 
                          normalize(transpose_times(world_.inner_from_outer.linear, s.normal)),
                          error, s.materials[0]});
     }
+}
+
+IsolatedSolid::Coordinates IsolatedSolid::coordinates(const Vec3& near, const Hit& hit) const {
+    Hit there = hit;
+    there.t = 0.0;
+    const Ray ray{world_.inner_from_outer.point(near), {0, 0, 1}};
+    const Surface s = surface_at(*aggregate_, ray, there);
+    const Affine& outer = world_.outer_from_inner;
+    return {s.uv, outer.point(s.point), outer.vector(s.dpdu), outer.vector(s.dpdv)};
 }
 
 namespace {

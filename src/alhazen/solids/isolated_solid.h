@@ -68,8 +68,20 @@ class IsolatedSolid final : public Measurable {
         Vec3 point, normal, error;
         MaterialId material{0};
     };
-    /// Appends all crossings of the ray between its limits.
-    void crossings(const Ray& ray, std::vector<SurfacePoint>& found) const;
+    /// Appends all crossings of the ray between its limits. `hits`: also the hits, in the frame of
+    /// `aggregate`.
+    void crossings(const Ray& ray, std::vector<SurfacePoint>& found,
+                   std::vector<Hit>* hits = nullptr) const;
+
+    /// Texture coordinates of the surface of a hit, at the point that the surface has for a given
+    /// one, and the derivatives of that point.
+    struct Coordinates {
+        Vec2 uv;
+        Vec3 point, dpdu, dpdv;
+    };
+    /// `near`: a point near the surface; `hit`: any hit of that surface, whose parameters count
+    /// where the shape does not project the point.
+    [[nodiscard]] Coordinates coordinates(const Vec3& near, const Hit& hit) const;
 
     [[nodiscard]] const SolidPlace& place() const { return place_; }
     /// The aggregate of the solid alone, in its own frame.

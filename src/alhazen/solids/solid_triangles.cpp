@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/solids/solid_coordinates.h"
 
 namespace alhazen {
 
@@ -19,16 +21,27 @@ class SurfaceLine {
   public:
     explicit SurfaceLine(const IsolatedSolid& solid) : solid_(solid) {}
 
+    /// The hit of a crossing that the last call of `cross` with `with_hits` found.
+    [[nodiscard]] const Hit& hit(std::size_t k) const { return hits_[k]; }
+
     const std::vector<SurfacePoint>& cross(const Vec3& from, const Vec3& along, double t_min,
-                                           double t_max) {
+                                           double t_max, bool with_hits = false) {
         found_.clear();
-        solid_.crossings({from, along, t_min, t_max}, found_);
+        hits_.clear();
+        solid_.crossings({from, along, t_min, t_max}, found_, with_hits ? &hits_ : nullptr);
         std::size_t kept = 0;
-        for (const SurfacePoint& p : found_) {
+        for (std::size_t k = 0; k < found_.size(); ++k) {
+            const SurfacePoint& p = found_[k];
             const bool leaves = dot(p.normal, along) > 0.0;
             const bool wall = kept > 0 && found_[kept - 1].t == p.t && !leaves &&
                               dot(found_[kept - 1].normal, along) > 0.0;
-            wall ? --kept : (found_[kept] = p, ++kept);
+            if (wall) {
+                --kept;
+                continue;
+            }
+            found_[kept] = p;
+            if (with_hits) hits_[kept] = hits_[k];
+            ++kept;
         }
         found_.resize(kept);
         return found_;
@@ -54,6 +67,7 @@ class SurfaceLine {
   private:
     const IsolatedSolid& solid_;
     std::vector<SurfacePoint> found_;
+    std::vector<Hit> hits_;
     LineSpans line_;
 };
 
@@ -61,6 +75,7 @@ class SurfaceLine {
 struct Crossing {
     Vec3 point, normal;
     std::uint32_t material = 0;
+    SolidCoordinates::Place place;  ///< where the surface has its texture coordinates
 };
 
 /// The point nearest to the tangent planes at the crossings, weakly drawn to their mean, clamped to
@@ -91,8 +106,10 @@ Vec3 feature_point(std::span<const Crossing> crossings, const Vec3& lo, const Ve
 /// A lattice. A node is one of its points, a cell the cube above a node.
 class Lattice {
   public:
-    Lattice(const IsolatedSolid& solid, double cell, double tolerance, TriangleMesh& mesh)
+    Lattice(const IsolatedSolid& solid, double cell, double tolerance, bool with_uvs,
+            TriangleMesh& mesh)
         : line_(solid), cell_(cell), tolerance_(tolerance), mesh_(mesh) {
+        if (with_uvs) coordinates_.emplace(solid);
         const Box3 box = solid.box();
         // Irrational shifts keep lattice planes off likely planes of the solid; outermost nodes are
         // outside.
@@ -214,16 +231,21 @@ class Lattice {
         outer[static_cast<int>(axis)] += cell_;
         if (!is_in(from)) std::swap(inner, outer);
         const Vec3 along = outer - inner;
-        for (const SurfacePoint& p : line_.cross(inner, along, 0.0, 1.0)) {
+        const bool with_uvs = coordinates_.has_value();
+        const auto& found = line_.cross(inner, along, 0.0, 1.0, with_uvs);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            const SurfacePoint& p = found[k];
             if (!(dot(p.normal, along) > 0.0)) continue;
-            return {p.point, p.normal, static_cast<std::uint32_t>(p.material)};
+            Crossing met{p.point, p.normal, static_cast<std::uint32_t>(p.material), {}};
+            if (with_uvs) met.place = coordinates_->place(line_.hit(k));
+            return met;
         }
         // Down to rounding of the surface.
         for (int round = 0; round < 40; ++round) {
             const Vec3 middle = 0.5 * (inner + outer);
             (line_.inside(middle) ? inner : outer) = middle;
         }
-        return {inner, normalize(along), 0};
+        return {inner, normalize(along), 0, {}};
     }
 
     // ---- A vertex for each cell that the surface passes through.
@@ -316,12 +338,23 @@ class Lattice {
         const Vec3 one = cross(p(1) - p(0), p(2) - p(0)), two = cross(p(2) - p(0), p(3) - p(0));
         return -std::min(dot(unit_or(one, normal), normal), dot(unit_or(two, normal), normal));
     }
-    /// The vertex of a cell for a face: a copy if the surface has an edge or another material
-    /// there.
+    /// The vertex of a cell for a face: a copy if the surface has an edge, another material or
+    /// other texture coordinates there.
     std::uint32_t corner(std::uint64_t vertex, const Crossing& met) {
         const auto own = static_cast<std::uint32_t>(vertex);
         const bool edge = is_edge_[own];
-        if (!edge && mesh_.vertex_materials[own] == met.material) return own;
+        const bool fits = !edge && mesh_.vertex_materials[own] == met.material;
+        if (!coordinates_) return fits ? own : copy(own, met);
+        const Vec2 uv = coordinates_->uv(mesh_.positions[own], met.point, met.place);
+        if (!fits) {
+            const std::uint32_t next = copy(own, met);
+            mesh_.uvs[next] = uv;
+            return next;
+        }
+        return coordinates_->vertex(own, met.place, uv, mesh_, [&] { return copy(own, met); });
+    }
+    std::uint32_t copy(std::uint32_t own, const Crossing& met) {
+        const bool edge = is_edge_[own];
         const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
         const Vec3 point = mesh_.positions[own];
         add_vertex(point, edge ? met.normal : mesh_.normals[own], met.material);
@@ -362,6 +395,7 @@ class Lattice {
     SurfaceLine line_;
     double cell_, tolerance_;
     TriangleMesh& mesh_;
+    std::optional<SolidCoordinates> coordinates_;
     Vec3 origin_;
     std::array<std::uint64_t, 3> count_{};
     std::uint64_t slab_ = 0;
@@ -376,7 +410,7 @@ class Lattice {
 }  // namespace
 
 bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uint64_t max_triangles,
-                          TriangleMesh& mesh) {
+                          TriangleMesh& mesh, bool with_uvs) {
     mesh = TriangleMesh{};
     const Box3 box = solid.box();
     if (box.empty()) return true;
@@ -391,7 +425,8 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
             std::max({cells.x * cells.y, cells.y * cells.z, cells.z * cells.x});
         if (projected > 4.0 * static_cast<double>(max_triangles)) return false;
         using Outcome = Lattice::Outcome;
-        const Outcome outcome = Lattice(solid, cell, tolerance, mesh).make(certain, max_triangles);
+        const Outcome outcome =
+            Lattice(solid, cell, tolerance, with_uvs, mesh).make(certain, max_triangles);
         if (outcome == Outcome::TooMany) return false;
         if (outcome == Outcome::Made) break;
         mesh = TriangleMesh{};

@@ -12,7 +12,10 @@
 /// so cells whose diagonal is the tolerance need no test. Larger cells are accepted if lines
 /// through the corners, the edges and the middle of each triangle meet the surface within half the
 /// tolerance, and no part or gap thicker than the tolerance lies between lattice points. Parts
-/// thinner than the tolerance may be missing.
+/// thinner than the tolerance may be missing. Texture coordinates are those of the shape whose
+/// surface is at the triangle, also of the operands of a CSG object: vertices at which they change
+/// by a jump (between shapes, faces and at seams) are several. A triangle across a seam goes on
+/// beyond 1; around a pole they are wrong in single triangles.
 /// Complexity: O((size / cell)^3) lattice points, O((size / cell)^2) lines and triangles.
 
 #include <cstdint>
@@ -23,9 +26,11 @@
 namespace alhazen {
 
 /// Creates a mesh with the materials of a CSG object at its vertices (the same for the three
-/// vertices of a triangle). Returns false if there would be more than `max_triangles`.
+/// vertices of a triangle). Returns false if there would be more than `max_triangles`. `with_uvs`
+/// false: texture coordinates are zero, and there are fewer vertices.
 /// Preconditions: the box of the solid is bounded; tolerance > 0.
 [[nodiscard]] bool make_solid_triangles(const IsolatedSolid& solid, double tolerance,
-                                        std::uint64_t max_triangles, TriangleMesh& mesh);
+                                        std::uint64_t max_triangles, TriangleMesh& mesh,
+                                        bool with_uvs = false);
 
 }  // namespace alhazen

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 
@@ -106,6 +107,55 @@ TEST(SolidTriangles, OfASolidWithEdgesHaveItsVolumeAndMaterials) {
         }
     }
     EXPECT_EQ(used.size(), 2u);
+}
+
+TEST(SolidTriangles, HaveTheTextureCoordinatesOfTheOperandsIfWanted) {
+    SceneMaker maker;
+    add_bored_box(maker);
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    TriangleMesh plain, mesh;
+    ASSERT_TRUE(make_solid_triangles(solid, 0.05, 2'000'000, plain));
+    ASSERT_TRUE(make_solid_triangles(solid, 0.05, 2'000'000, mesh, true));
+    for (const Vec2& uv : plain.uvs) EXPECT_EQ(uv, (Vec2{0, 0}));
+    ASSERT_EQ(mesh.triangles.size(), plain.triangles.size());
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    int tops = 0, bores = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        Vec3 normal;
+        Vec2 lo{9, 9}, hi{-9, -9};
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(mesh.positions[t[k]], plain.positions[plain.triangles[i][k]]);
+            const Vec2 uv = mesh.uvs[t[k]];
+            lo = {std::min(lo.x, uv.x), std::min(lo.y, uv.y)};
+            hi = {std::max(hi.x, uv.x), std::max(hi.y, uv.y)};
+            normal = normal + mesh.normals[t[k]];
+        }
+        const bool is_top = normal.z > 2.9, is_bore = mesh.vertex_materials[t[0]] == 1;
+        for (const std::uint32_t corner : t) {
+            const Vec3 p = mesh.positions[corner];
+            const Vec2 uv = mesh.uvs[corner];
+            if (is_top) {
+                EXPECT_NEAR(uv.x, 0.5 * (p.x + 1), 1e-9);
+                EXPECT_NEAR(uv.y, 0.5 * (p.y + 1), 1e-9);
+                ++tops;
+            } else if (is_bore) {
+                EXPECT_NEAR(uv.y, 0.5 * (p.z + 1), 1e-3);
+                const Vec3 around = perpendicular(Vec3{0, 0, 1});
+                const Vec3 across = cross(Vec3{0, 0, 1}, around);
+                const double turns = std::atan2(dot(across, p), dot(around, p)) / (2 * kPi);
+                EXPECT_NEAR(uv.x, turns + std::round(uv.x - turns), 1e-9);
+                ++bores;
+            }
+        }
+        // Triangles across the seam go on.
+        if (is_bore) {
+            EXPECT_LT(hi.x - lo.x, 0.2);
+        }
+    }
+    EXPECT_GT(tops, 300);
+    EXPECT_GT(bores, 300);
 }
 
 TEST(SolidTriangles, ThinPartsAreFoundWhateverTheirDirection) {

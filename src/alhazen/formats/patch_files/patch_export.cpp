@@ -37,35 +37,29 @@ bool all_one(const std::vector<double>& weights) {
     return std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1.0; });
 }
 
-bool is_mirroring(const Affine& placement) {
-    return determinant(placement.linear) < 0.0;
-}
-
 Vec3 placed_point(const Affine& placement, const Vec3& p) {
     return placement == Affine{} ? p : placement.point(p);
 }
 
-/// u-major indices of one patch; rows and columns are exchanged for a mirroring placement.
-std::vector<std::uint32_t> turned(std::span<const std::uint32_t> patch, std::size_t rows,
-                                  std::size_t columns) {
+/// u-major indices of one patch with its rows, of constant u, in reverse order.
+std::vector<std::uint32_t> reversed_rows(std::span<const std::uint32_t> patch, std::size_t rows) {
+    const std::size_t columns = patch.size() / rows;
     std::vector<std::uint32_t> out;
-    for (std::size_t j = 0; j < columns; ++j) {
-        for (std::size_t i = 0; i < rows; ++i) out.push_back(patch[i * columns + j]);
+    for (std::size_t i = rows; i-- > 0;) {
+        const auto row = patch.subspan(i * columns, columns);
+        out.insert(out.end(), row.begin(), row.end());
     }
     return out;
 }
 
 void append_bpt(const NamedSurface& surface, const PatchList& list, std::string& out) {
-    std::size_t rows = list.degree_u + 1, columns = list.degree_v + 1;
-    const std::size_t size = rows * columns;
+    const std::size_t rows = list.degree_u + 1, size = rows * (list.degree_v + 1);
     const bool mirrored = is_mirroring(surface.placement);
     for (std::size_t at = 0; at + size <= list.patches.size(); at += size) {
         std::span<const std::uint32_t> patch(&list.patches[at], size);
         std::vector<std::uint32_t> other;
-        if (mirrored) patch = other = turned(patch, rows, columns);
-        out += mirrored ? std::to_string(list.degree_v) + ' ' + std::to_string(list.degree_u)
-                        : std::to_string(list.degree_u) + ' ' + std::to_string(list.degree_v);
-        out += '\n';
+        if (mirrored) patch = other = reversed_rows(patch, rows);
+        out += std::to_string(list.degree_u) + ' ' + std::to_string(list.degree_v) + '\n';
         for (const std::uint32_t index : patch) {
             const Vec3 p = placed_point(surface.placement, list.points[index]);
             const std::size_t begin = out.size();
@@ -112,16 +106,15 @@ void append_obj_net(std::span<const std::uint32_t> net, std::size_t rows, std::s
 
 void append_obj_patches(const NamedSurface& surface, const PatchList& list, std::string& out) {
     append_obj_points(surface, list.points, list.weights, out);
-    std::size_t rows = list.degree_u + 1, columns = list.degree_v + 1;
+    const std::size_t rows = list.degree_u + 1, columns = list.degree_v + 1;
     const std::size_t size = rows * columns;
     const bool mirrored = is_mirroring(surface.placement);
-    if (mirrored) std::swap(rows, columns);
     out += list.weights.empty() ? "cstype bezier\n" : "cstype rat bezier\n";
     out += "deg " + std::to_string(rows - 1) + ' ' + std::to_string(columns - 1) + '\n';
     for (std::size_t at = 0; at + size <= list.patches.size(); at += size) {
         std::span<const std::uint32_t> patch(&list.patches[at], size);
         std::vector<std::uint32_t> other;
-        if (mirrored) patch = other = turned(patch, columns, rows);
+        if (mirrored) patch = other = reversed_rows(patch, rows);
         out += "surf 0 1 0 1";
         append_obj_net(patch, rows, columns, list.points.size(), out);
         out += "parm u 0 1\nparm v 0 1\nend\n";
@@ -143,7 +136,7 @@ std::vector<double> all_knots(const TrimCurve& curve) {
 void append_obj_curve(const TrimCurve& curve, bool mirrored, std::string& out) {
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
         Vec2 p = curve.points[k];
-        if (mirrored) std::swap(p.x, p.y);
+        if (mirrored) p.x = -p.x;
         out += "vp";
         append_number(out, p.x);
         append_number(out, p.y);
@@ -182,31 +175,33 @@ void append_obj_nurbs(const NamedSurface& surface, const NurbsSurface& s, std::s
     append_obj_points(surface, s.points, s.weights, out);
     const bool mirrored = is_mirroring(surface.placement);
     const std::string trims = append_obj_loops(s.trims, mirrored, out);
-    std::size_t rows = s.knots_u.size() - s.degree_u - 1;
-    std::size_t columns = s.knots_v.size() - s.degree_v - 1;
+    const std::size_t rows = s.knots_u.size() - s.degree_u - 1;
+    const std::size_t columns = s.knots_v.size() - s.degree_v - 1;
     std::vector<std::uint32_t> net;
     for (std::size_t k = 0; k < s.points.size(); ++k) net.push_back(std::uint32_t(k));
-    const std::vector<double>* ku = &s.knots_u;
-    const std::vector<double>* kv = &s.knots_v;
-    std::uint32_t du = s.degree_u, dv = s.degree_v;
+    std::vector<double> knots_u = s.knots_u;
     if (mirrored) {
-        net = turned(net, rows, columns);
-        std::swap(rows, columns);
-        std::swap(ku, kv);
-        std::swap(du, dv);
+        net = reversed_rows(net, rows);
+        std::reverse(knots_u.begin(), knots_u.end());
+        for (double& knot : knots_u) knot = -knot;
     }
     out += s.weights.empty() ? "cstype bspline\n" : "cstype rat bspline\n";
-    out += "deg " + std::to_string(du) + ' ' + std::to_string(dv) + "\nsurf";
-    for (const double c : {(*ku)[du], (*ku)[rows], (*kv)[dv], (*kv)[columns]}) {
+    out += "deg " + std::to_string(s.degree_u) + ' ' + std::to_string(s.degree_v) + "\nsurf";
+    for (const double c :
+         {knots_u[s.degree_u], knots_u[rows], s.knots_v[s.degree_v], s.knots_v[columns]}) {
         append_number(out, c);
     }
     append_obj_net(net, rows, columns, s.points.size(), out);
-    append_obj_numbers("parm u", *ku, out);
-    append_obj_numbers("parm v", *kv, out);
+    append_obj_numbers("parm u", knots_u, out);
+    append_obj_numbers("parm v", s.knots_v, out);
     out += trims + "end\n";
 }
 
 }  // namespace
+
+bool is_mirroring(const Affine& placement) {
+    return determinant(placement.linear) < 0.0;
+}
 
 bool fits_bpt(const AnyShape& shape) {
     if (const auto* mesh = std::get_if<PatchMesh>(&shape)) return all_one(mesh->weights);

@@ -3,8 +3,9 @@
 ///
 /// Source: docs/reference/formats/bpt.md; "Object Files (.obj)", Wavefront, 1992.
 /// Conventions: numbers are the shortest decimals that read back equal. A placement applies to the
-/// control points, which is exact up to rounding; a mirroring one also exchanges u and v, so that
-/// the outside stays outside. The identity keeps all bits.
+/// control points, which is exact up to rounding; a mirroring one also reverses u (patches from u
+/// to 1 - u, knots and loops from u to -u), so that the outside stays outside. The identity keeps
+/// all bits.
 
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ struct NamedSurface {
     Affine placement;                 ///< file_from_shape
     std::string material;             ///< OBJ: name for `usemtl`; empty: none
 };
+
+/// True if a placement turns the outside in: u of the surface is then written in reverse.
+[[nodiscard]] bool is_mirroring(const Affine& placement);
 
 /// True for Bezier patches, patch meshes and bilinear patches; .bpt has no weights other than 1.
 [[nodiscard]] bool fits_bpt(const AnyShape& shape);

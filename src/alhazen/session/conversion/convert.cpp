@@ -19,6 +19,7 @@
 #include "alhazen/session/conversion/placed_surfaces.h"
 #include "alhazen/session/masked_parts.h"
 #include "alhazen/session/scene_files.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
 
@@ -125,9 +126,70 @@ std::vector<std::string> material_words(const SceneDescription& description) {
     return unique_labels(names, "material");
 }
 
+/// A material for surfaces whose u is written in reverse: its textures are looked up at 1 - u.
+struct ReversedMaterial {
+    std::size_t material = 0;
+    std::string name;
+};
+
+/// Gives mirrored surfaces with textures such materials; returns these.
+std::vector<ReversedMaterial> reverse_materials(const SceneDescription& description,
+                                                const std::vector<std::string>& names,
+                                                std::vector<NamedSurface>& surfaces) {
+    std::map<std::string, std::size_t> index;
+    std::vector<std::string> all = names;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        index[names[i]] = i;
+        all.push_back(names[i] + "_mirrored");
+    }
+    const std::vector<std::string> labels = unique_labels(all, "material");
+    std::vector<ReversedMaterial> reversed;
+    std::set<std::size_t> known;
+    for (NamedSurface& surface : surfaces) {
+        if (!is_mirroring(surface.placement)) continue;
+        const std::size_t i = index.at(surface.material);
+        if (!reads_textures(description.materials[i].material)) continue;
+        surface.material = labels[names.size() + i];
+        if (known.insert(i).second) reversed.push_back({i, surface.material});
+    }
+    return reversed;
+}
+
+/// The same texture for coordinates with u in reverse.
+MtlTexture reversed(MtlTexture texture) {
+    UvTransform& uv = texture.settings.uv_transform;
+    uv.offset = {uv.offset.x + uv.uu, uv.offset.y + uv.vu};
+    uv.uu = -uv.uu;
+    uv.vu = -uv.vu;
+    return texture;
+}
+
+/// The text of the reversed materials; its losses are those of the materials, and normal maps.
+std::string reversed_material_text(const SceneDescription& description,
+                                   const std::vector<ReversedMaterial>& reversed_materials,
+                                   std::span<const MtlTexture> textures,
+                                   std::vector<std::string>& lost) {
+    if (reversed_materials.empty()) return {};
+    std::vector<MtlTexture> other;
+    for (const MtlTexture& texture : textures) other.push_back(reversed(texture));
+    std::vector<Material> materials;
+    for (const ReversedMaterial& from : reversed_materials) {
+        materials.push_back(description.materials[from.material].material);
+        Material& material = materials.back();
+        if (material.normal_map.texture != kNoTexture) {
+            lost.push_back("the normal map of mirrored patches (material '" + material.name + "')");
+        }
+        material.name = from.name;
+    }
+    std::vector<std::string> same_losses;
+    return mtl_text(materials, other, same_losses);
+}
+
 /// Writes pictures to the folder and materials to OUT.mtl; returns the name of that file.
 std::string write_materials(const SceneDescription& description,
-                            const std::vector<std::string>& names, ConvertOutput& output) {
+                            const std::vector<std::string>& names,
+                            const std::vector<ReversedMaterial>& reversed_materials,
+                            ConvertOutput& output) {
     std::map<const StoredImage*, std::string> files;
     std::vector<MtlTexture> textures;
     const auto write = [&](const ImageTexture& texture) {
@@ -154,7 +216,8 @@ std::string write_materials(const SceneDescription& description,
         materials.back().name = names[i];
     }
     const fs::path name = output.sibling(".mtl");
-    const std::string text = mtl_text(materials, textures, output.report().lost);
+    std::string text = mtl_text(materials, textures, output.report().lost);
+    text += reversed_material_text(description, reversed_materials, textures, output.report().lost);
     output.write_sibling(name, bytes_of(text));
     return name.string();
 }
@@ -203,7 +266,8 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
         output.report().lost_alpha = meshes_with_vertex_alpha(meshes);
         output.report().clamped_colors = meshes_with_colors_beyond_one(meshes);
         output.report().unit_normals = meshes_with_normals_of_several_lengths(meshes);
-        bytes = obj_text(meshes, write_materials(description, names, output));
+        const auto reversed_materials = reverse_materials(description, names, surfaces);
+        bytes = obj_text(meshes, write_materials(description, names, reversed_materials, output));
         bytes += obj_surfaces_text(surfaces);
     } else if (meshes.size() == 1 && meshes.front().placement == Affine{} &&
                meshes.front().mesh->vertex_materials.empty()) {

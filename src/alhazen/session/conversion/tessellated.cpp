@@ -8,6 +8,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shapes/shape_tessellation.h"
 #include "alhazen/solids/solid_triangles.h"
 
@@ -133,6 +134,26 @@ SceneDescription object_alone(const SceneDescription& scene, std::size_t index) 
     return alone;
 }
 
+/// True if a texture on a part is looked up by texture coordinates.
+bool any_part_reads_coordinates(const SceneDescription& scene) {
+    const auto reads = [&](std::size_t material) {
+        return reads_coordinates(scene.materials[material].material);
+    };
+    for (const ObjectDescription& object : scene.objects) {
+        for (const Part& part : object.parts) {
+            if (std::holds_alternative<ObjectIndex>(part.what)) continue;
+            if (reads(static_cast<std::size_t>(part.material))) return true;
+            const auto* index = std::get_if<MeshIndex>(&part.what);
+            if (index == nullptr) continue;
+            const TriangleMesh& mesh = *scene.meshes[static_cast<std::size_t>(*index)].mesh;
+            for (const std::uint32_t id : mesh.vertex_materials) {
+                if (reads(id)) return true;
+            }
+        }
+    }
+    return false;
+}
+
 class Tessellation {
   public:
     Tessellation(SceneDescription& scene, double tolerance, bool keep_others,
@@ -184,21 +205,23 @@ class Tessellation {
 
     /// Tessellates a closed shape or a solid by its crossings with lines. Returns why that failed;
     /// empty on success.
-    std::string append_by_lines(const SceneDescription& alone, double tolerance,
+    std::string append_by_lines(const SceneDescription& alone, double tolerance, bool with_uvs,
                                 TriangleMesh& mesh) const {
         const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
         if (solids.count() != 1) return "bounds no volume";
         const IsolatedSolid solid(solids, SolidId{0});
         if (!solid.box().empty() && !solid.box().bounded()) return "is endless";
         const std::uint64_t most = max_triangles_ - report_.triangles;
-        return make_solid_triangles(solid, tolerance, most, mesh) ? "" : kTooManyTriangles;
+        const bool made = make_solid_triangles(solid, tolerance, most, mesh, with_uvs);
+        return made ? "" : kTooManyTriangles;
     }
 
     void replace_solid(std::size_t index, double stretch) {
         ObjectDescription& object = scene_.objects[index];
         auto mesh = std::make_shared<TriangleMesh>();
+        const SceneDescription alone = object_alone(scene_, index);
         const std::string failed =
-            append_by_lines(object_alone(scene_, index), tolerance_ / stretch, *mesh);
+            append_by_lines(alone, tolerance_ / stretch, any_part_reads_coordinates(alone), *mesh);
         if (!accept(failed, object.location, object.name, "the solid ", *mesh)) return;
         Part part{.what = MeshIndex{0}, .name = object.name, .location = object.location};
         std::vector<std::uint32_t>& materials = mesh->vertex_materials;
@@ -248,7 +271,10 @@ class Tessellation {
         std::string failed =
             append_triangles(prepared, tolerance, max_triangles_ - report_.triangles, *mesh);
         if (failed == kNeedsLines) {
-            failed = append_by_lines(shape_alone(*shape), tolerance, *mesh);
+            const Material& material =
+                scene_.materials[static_cast<std::size_t>(part.material)].material;
+            failed =
+                append_by_lines(shape_alone(*shape), tolerance, reads_coordinates(material), *mesh);
             mesh->vertex_materials.clear();
         }
         const std::string name = part.name.empty() ? kind : kind + (" '" + part.name + "'");

@@ -15,6 +15,8 @@ namespace {
 
 using testing::RandomShape;
 
+constexpr std::uint32_t kNoPart = 0xFFFFFFFFu;
+
 /// Bits of the nets of all patches.
 std::vector<HomogeneousPoint> nets_of(const PatchMesh& mesh) {
     std::vector<HomogeneousPoint> all;
@@ -42,6 +44,17 @@ testing::Imported read_back(const AnyShape& shape, const Affine& placement = {})
 
 const PatchMesh& mesh_of(const testing::Imported& read) {
     return std::get<PatchMesh>(std::get<AnyShape>(read.parts().at(0).what));
+}
+
+/// The piece of a prepared surface that has the parameters of a hit.
+std::uint32_t part_at(const NurbsSurface& s, const ShapeHit& hit) {
+    const PatchPieces& pieces = s.tree->pieces();
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Vec2& lo = pieces.lo(k);
+        const Vec2& hi = pieces.hi(k);
+        if (lo.x <= hit.u && hit.u <= hi.x && lo.y <= hit.v && hit.v <= hi.y) return pieces.part(k);
+    }
+    return kNoPart;
 }
 
 TEST(PatchExport, PatchesComeBackBitForBit) {
@@ -79,16 +92,56 @@ TEST(PatchExport, NurbsSurfacesComeBackWithTheirLoops) {
     }
 }
 
-TEST(PatchExport, AMirroringPlacementExchangesUAndV) {
+TEST(PatchExport, AMirroringPlacementReversesU) {
     testing::Random random(22);
     const auto patch = RandomShape<BezierPatch>::make({random, false});
     const Affine mirror = Affine::scale({-1, 1, 1});
-    const auto read = read_back<ObjImporter>(AnyShape{patch}, mirror);
-    const BezierNet net = mesh_of(read).net(0), own = patch.net();
-    ASSERT_EQ(net.degree_u, own.degree_v);
-    for (int i = 0; i <= own.degree_u; ++i) {
-        for (int j = 0; j <= own.degree_v; ++j) {
-            EXPECT_EQ(projected(net.at(j, i)), mirror.point(projected(own.at(i, j))));
+    const BezierNet own = patch.net();
+    const auto check = [&](const testing::Imported& read) {
+        const BezierNet net = mesh_of(read).net(0);
+        ASSERT_EQ(net.degree_u, own.degree_u);
+        ASSERT_EQ(net.degree_v, own.degree_v);
+        for (int i = 0; i <= own.degree_u; ++i) {
+            for (int j = 0; j <= own.degree_v; ++j) {
+                EXPECT_EQ(projected(net.at(own.degree_u - i, j)),
+                          mirror.point(projected(own.at(i, j))));
+            }
+        }
+    };
+    check(read_back<ObjImporter>(AnyShape{patch}, mirror));
+    check(read_back<BptImporter>(AnyShape{patch}, mirror));
+}
+
+TEST(PatchExport, AMirroredNurbsSurfaceReversesItsKnotsAndLoops) {
+    testing::Random random(23);
+    const Affine mirror = Affine::scale({1, 1, -1});
+    for (int i = 0; i < 60; ++i) {
+        auto s = RandomShape<NurbsSurface>::make({random, i % 2 == 1});
+        const auto read = read_back<ObjImporter>(AnyShape{s}, mirror);
+        auto back = std::get<NurbsSurface>(std::get<AnyShape>(read.parts().at(0).what));
+        s.prepare();
+        back.prepare();
+        ASSERT_EQ(back.knots_v, s.knots_v);
+        for (int k = 0; k < 20; ++k) {
+            const double u = random.uniform(), v = random.uniform();
+            const Vec2 lo{s.knots_u[s.degree_u], s.knots_v[s.degree_v]};
+            const Vec2 hi{s.knots_u[s.knots_u.size() - s.degree_u - 1],
+                          s.knots_v[s.knots_v.size() - s.degree_v - 1]};
+            ShapeHit hit, other;
+            hit.u = lo.x + u * (hi.x - lo.x);
+            hit.v = lo.y + v * (hi.y - lo.y);
+            other = hit;
+            other.u = -hit.u;
+            EXPECT_EQ(back.keeps(other), s.keeps(hit));
+            hit.part = part_at(s, hit);
+            other.part = part_at(back, other);
+            // Pieces that the loops remove are not stored.
+            if (hit.part == kNoPart || other.part == kNoPart) continue;
+            const ShapeSurface here = s.surface(Ray{}, hit), there = back.surface(Ray{}, other);
+            EXPECT_LT(length(mirror.point(here.point) - there.point),
+                      1e-9 * (1 + length(here.point)));
+            EXPECT_NEAR(there.uv.x, 1.0 - here.uv.x, 1e-12);
+            EXPECT_NEAR(there.uv.y, here.uv.y, 1e-12);
         }
     }
 }

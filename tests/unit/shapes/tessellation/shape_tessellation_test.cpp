@@ -176,6 +176,128 @@ TEST(ShapeTessellation, LoopsCutTheTrianglesOfANurbsSurface) {
     }
 }
 
+/// The surface of a prepared shape nearest to a point, along a normal.
+template <class S>
+ShapeSurface surface_near(const S& shape, const Vec3& point, const Vec3& normal) {
+    const Ray ray{point, normal, -0.1, 0.1};
+    ShapeHits hits;
+    append_hits(shape, ray, hits);
+    ShapeSurface nearest;
+    double least = 1.0;
+    for (const ShapeHit& hit : hits) {
+        const ShapeSurface surface = shape.surface(ray, hit);
+        if (std::abs(hit.t) > least || dot(surface.normal, normal) < 0.5) continue;
+        least = std::abs(hit.t);
+        nearest = surface;
+    }
+    EXPECT_LT(least, 1.0) << S::kName;
+    return nearest;
+}
+
+/// Expects the interpolated texture coordinates in triangles to be those of the shape, up to whole
+/// turns and to a distance on the surface. Returns the largest range of u in a triangle.
+template <class S>
+double check_uvs(S shape, double most_apart) {
+    const TriangleMesh mesh = mesh_of(shape, 0.002);
+    shape.prepare();
+    double range = 0.0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+        const Vec3 across = cross(b - a, c - a);
+        if (!(length(across) > 1e-7)) continue;
+        const ShapeSurface exact = surface_near(shape, (a + b + c) / 3, normalize(across));
+        const Vec2 uv = (1.0 / 3.0) * (mesh.uvs[t[0]] + mesh.uvs[t[1]] + mesh.uvs[t[2]]);
+        const auto off = [](double x, double y) { return x - y - std::round(x - y); };
+        const Vec3 apart = off(uv.x, exact.uv.x) * exact.dpdu + off(uv.y, exact.uv.y) * exact.dpdv;
+        EXPECT_LT(length(apart), most_apart) << S::kName << " at " << uv.x << ' ' << uv.y
+                                             << ", not " << exact.uv.x << ' ' << exact.uv.y;
+        for (std::size_t k = 0; k < 3; ++k) {
+            range = std::max(range, std::abs(mesh.uvs[t[k]].x - mesh.uvs[t[(k + 1) % 3]].x));
+        }
+    }
+    return range;
+}
+
+TEST(ShapeTessellation, TrianglesHaveTheTextureCoordinatesOfTheShape) {
+    // Rings are divided into at least eight; no triangle spans a seam backwards.
+    const auto check = [](auto shape) { EXPECT_LT(check_uvs(shape, 0.02), 0.3) << shape.kName; };
+    check(Sphere{.center = {1, 2, 3}, .radius = 1.3});
+    check(Ellipsoid{.axis_a = {1.5, 0, 0}, .axis_b = {0, 1, 0.3}, .axis_c = {0, 0, 0.7}});
+    check(Ellipsoid{.axis_a = {1.5, 0, 0}, .axis_b = {0, -1, 0.3}, .axis_c = {0, 0, 0.7}});
+    check(Torus{.center = {0, 1, 0}, .axis = {1, 2, 3}, .major_radius = 1.2, .minor_radius = 0.4});
+    check(Disc{.center = {0, 0, 1}, .radius = 1.5, .inner_radius = 0.5});
+    check(Disc{.radius = 1.5});
+    check(Cylinder{.base = {0, -1, 0}, .top = {0, 1, 0.3}});
+    check(Cone{.base = {0, -1, 0}, .top = {0, 1, 0.3}});
+    check(Cone{.base = {0, -1, 0}, .top = {0, 1, 0.3}, .base_radius = 1.2, .top_radius = 0.4});
+    check(EllipticCylinder{.axis_a = {1.5, 0, 0}, .axis_b = {0, 1, 0.3}});
+    check(EllipticCone{.axis_a = {1.5, 0, 0}, .axis_b = {0, 1, 0.3}});
+    check(Tgc{.axis_a = {1.5, 0, 0},
+              .axis_b = {0, 1, 0.3},
+              .axis_c = {0.5, 0, 0},
+              .axis_d = {0, 0.7, 0.21}});
+    check(Paraboloid{});
+    check(Hyperboloid{});
+    check(TwoSheetHyperboloid{});
+}
+
+TEST(ShapeTessellation, TrianglesOfASteinerPatchHaveItsParameters) {
+    SteinerPatch patch{
+        .points = {{-1, -1, 0}, {0, -1, 0.5}, {0, 0, 0}, {0, -0.5, 0.2}, {0.5, 0.5, 0}, {0, 1, 0}}};
+    const TriangleMesh mesh = mesh_of(patch, 0.002);
+    patch.prepare();
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        ShapeHit hit;
+        hit.u = mesh.uvs[k].x;
+        hit.v = mesh.uvs[k].y;
+        EXPECT_LT(length(patch.surface(Ray{}, hit).point - mesh.positions[k]), 1e-9);
+    }
+}
+
+TEST(ShapeTessellation, FacesHaveTheTextureCoordinatesOfTheShape) {
+    const auto check = [](auto shape) { check_uvs(shape, 1e-9); };
+    check(BoxShape{.lo = {-1, 0.1, 0.3}, .hi = {0.7, 2, 3.3}});
+    check(Rectangle{.corner = {-1, -1, 0}, .edge_u = {2, 0, 0}, .edge_v = {0.5, 2, 0}});
+    check(Polygon{.vertices = {{-1, -1, 2}, {3, -1, 2}, {3, 4, 2}}});
+    check(hexahedron({{{-1, -1, -1},
+                       {1, -1, -1},
+                       {1, 1, -1},
+                       {-1, 1, -1},
+                       {-1, -1, 1},
+                       {1, -1, 1},
+                       {1, 1, 1},
+                       {-1, 1, 1}}}));
+    HeightField field{.columns = 3, .rows = 2, .base = -0.5};
+    field.heights = std::make_shared<std::vector<float>>(std::vector<float>{0, 1, 0, 0.5, 0, 0.25});
+    check(field);
+}
+
+TEST(ShapeTessellation, FacesOfAPolyhedronInEitherOrderTurnOutward) {
+    Polyhedron solid;
+    solid.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    // The first and the third are clockwise from outside.
+    solid.corners = {0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3};
+    solid.face_ends = {3, 6, 9, 12};
+    const TriangleMesh mesh = mesh_of(solid, 0.1);
+    EXPECT_NEAR(signed_volume(mesh), 8.0 / 6, 1e-12);
+    check_uvs(solid, 1e-9);
+}
+
+TEST(ShapeTessellation, ALatheHasTheOutsideAndTheTextureCoordinatesOfItsProfile) {
+    // Both directions of the profile.
+    for (const bool down : {false, true}) {
+        Lathe lathe;
+        const Vec2 a{0, -1}, b{1, -1}, c{1, 0}, d{0.5, 1}, e{0.3, 1}, f{0, 1};
+        lathe.profile.curves = {line_curve(a, b), cubic_curve(b, c, d, e), line_curve(e, f)};
+        if (down) {
+            lathe.profile.curves = {line_curve(f, e), cubic_curve(e, d, c, b), line_curve(b, a)};
+        }
+        lathe.profile.loop_ends = {3};
+        EXPECT_GT(signed_volume(mesh_of(lathe, 0.01)), 4.0);
+        EXPECT_LT(check_uvs(lathe, 0.02), 0.3);
+    }
+}
+
 TEST(ShapeTessellation, NamesWhatItCannot) {
     const auto refusal = [](AnyShape shape) {
         std::visit([](auto& s) { s.prepare(); }, shape);

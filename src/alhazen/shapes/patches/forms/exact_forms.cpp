@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
@@ -111,10 +112,15 @@ bool normal_is_left(const Lathe& lathe, std::uint32_t part) {
     const Vec2 middle = curve.point(0.5);
     const Vec2 along = curve.direction(0.5);
     const Vec3 left{-along.y, 0.0, along.x};
-    ShapeHit hit;
-    hit.u = 0.5;
-    hit.part = part;
-    const Ray ray{{middle.x, 0.0, middle.y}, left};
+    const Ray ray{{middle.x, 0.0, middle.y}, left, -kInfinity, kInfinity};
+    // The crossing there: only the full list tells on which side a closed lathe is.
+    ShapeHits hits;
+    lathe.intersect(ray, hits);
+    ShapeHit hit{kInfinity, 0.5, 0.0, part};
+    for (const ShapeHit& found : hits) {
+        if (found.part == part && std::abs(found.t) < std::abs(hit.t)) hit = found;
+    }
+    if (!(std::abs(hit.t) <= 1e-6 * lathe.reach / length(left))) hit = {0.0, 0.5, 0.0, part};
     return dot(lathe.surface(ray, hit).normal, left) > 0.0;
 }
 
@@ -211,8 +217,13 @@ void append_pieces(const Lathe& shape, std::vector<BezierPiece>& pieces) {
         }
         if (on_axis) continue;
         // A ring's normal is to the right of its profile's direction.
-        if (normal_is_left(shape, part)) std::reverse(profile.begin(), profile.end());
+        const bool reversed = normal_is_left(shape, part);
+        if (reversed) std::reverse(profile.begin(), profile.end());
+        const std::size_t first = pieces.size();
         frame.append(profile, part, pieces);
+        if (!reversed) continue;
+        for (std::size_t k = first; k < pieces.size(); ++k)
+            std::swap(pieces[k].lo.y, pieces[k].hi.y);
     }
 }
 

@@ -7,7 +7,7 @@
 /// Conventions: du x dv points outward. part is that of the shape's own hits. Neighbouring patches
 /// have equal control points, bit for bit, along the boundary they share, so that the patches of a
 /// closed shape close. The middle weights of quarter circles are sqrt(1/2): u and v of a piece are
-/// not the shape's own texture coordinates.
+/// not the shape's own texture coordinates; v of a lathe is the parameter of its profile.
 
 #include <concepts>
 #include <vector>
