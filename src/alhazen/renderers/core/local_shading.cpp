@@ -3,6 +3,7 @@
 #include <cmath>
 #include <new>
 
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/textures/normal_map.h"
@@ -238,17 +239,24 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
                        TraversalStats* stats, VisibleHit& found) {
     Ray rest = ray;
     double passed = 0.0;
+    const RayQuery query{stats, mask_of(RayKind::Eye)};
+    CoincidentSurfaces here(scene);
     for (int i = 0; i <= kMaxPassedSurfaces; ++i) {
         found.hit = Hit();
-        if (!scene.aggregate->closest(rest, found.hit, {stats, mask_of(RayKind::Eye)}))
-            return false;
+        if (!scene.aggregate->closest(rest, found.hit, query)) return false;
         found.t = passed + found.hit.t;
         set_shading_point(scene, rest, found.hit, {inside, cone.width_at(found.t)}, {},
                           found.point);
-        const double coverage = found.point.material->coverage;
-        if (coverage > 0.0) return true;
+        if (found.point.material->coverage > 0.0) return true;
         passed = found.t;
+        here.find(found.point.surface, found.hit, rest, query);
         rest = leaving_ray(found.point.surface, ray.direction, ray.t_max - passed);
+        while (const Hit* hit = here.next()) {
+            found.hit = *hit;
+            set_shading_point(scene, here.ray(), *hit, {inside, cone.width_at(found.t)}, {},
+                              found.point);
+            if (found.point.material->coverage > 0.0) return true;
+        }
     }
     return false;
 }

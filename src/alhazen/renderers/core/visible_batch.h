@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/wavefront.h"
 
@@ -19,7 +20,11 @@ class VisibleBatch {
   public:
     /// `follows_light`: rays other than eye rays hit the backs of single-sided surfaces.
     VisibleBatch(const Scene& scene, TraversalStats* stats, bool follows_light = false)
-        : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
+        : scene_(scene),
+          stats_(stats),
+          follows_light_(follows_light),
+          constant_(scene),
+          here_(scene) {}
     /// Uses the optics for all further surfaces; media are those of `path(k).medium`.
     void use(SurfaceOptics& optics) { optics_ = &optics; }
     /// Reports surfaces of coverage 0, too, that may be openings into volumes.
@@ -76,6 +81,27 @@ class VisibleBatch {
     /// The hit of the point that is being reported; t counts from the last surface passed.
     [[nodiscard]] const Hit& reported_hit() const { return *reported_; }
 
+    /// While a point is reported: the ray behind all surfaces at its place, along the unit
+    /// direction.
+    [[nodiscard]] Ray beyond(const Vec3& direction) const {
+        return leaving_ray(searched_ ? first_here_ : point_.surface, direction);
+    }
+    /// The ray along which `next_here` found its point.
+    [[nodiscard]] const Ray& ray_here() const { return here_.ray(); }
+    /// While a point is reported that the ray passes: reports the next surface at the same place;
+    /// null if there is none. `path`: of the ray, with its cone at the point.
+    template <class AnyPath>
+    [[nodiscard]] const ShadingPoint* next_here(const AnyPath& path) {
+        if (!searched_) search_here(path);
+        while (const Hit* hit = here_.next()) {
+            shade(here_.ray(), *hit, path, path.cone.width_at(0.0));
+            if (!is_reported()) continue;
+            reported_ = hit;
+            return &point_;
+        }
+        return nullptr;
+    }
+
   private:
     /// A ray behind surfaces with no coverage.
     struct Passed {
@@ -117,22 +143,51 @@ class VisibleBatch {
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const AnyPath& path, Tell&& tell) {
         const double t = distance + hit.t;
+        shade(rest, hit, path, path.cone.width_at(t));
+        reported_ = &hit;
+        reported_ray_ = &rest;
+        searched_ = false;
+        if (is_reported()) {
+            tell(k, static_cast<const ShadingPoint*>(&point_), t);
+            return;
+        }
+        search_here(path);
+        const Ray behind = leaving_ray(point_.surface, whole.direction, whole.t_max - t);
+        while (const Hit* other = here_.next()) {
+            shade(here_.ray(), *other, path, path.cone.width_at(t));
+            if (!is_reported()) continue;
+            reported_ = other;
+            tell(k, static_cast<const ShadingPoint*>(&point_), t);
+            return;
+        }
+        behind_.push_back({behind, k, t});
+    }
+
+    /// Sets `point_`. `width`: of the cone at the hit.
+    template <class AnyPath>
+    void shade(const Ray& ray, const Hit& hit, const AnyPath& path, double width) {
         const PointNeeds needs{.coordinates = CoordinateNeed::of(scene_.reads_coordinates),
                                .constant = &constant_,
                                .optics = optics_};
         const bool meets_backs = follows_light_ && path.kind != RayKind::Eye;
-        Arrival arrival{path.inside, path.cone.width_at(t), path.time, meets_backs};
+        Arrival arrival{path.inside, width, path.time, meets_backs};
         if constexpr (std::is_same_v<AnyPath, Path>) {
             arrival.medium = path.medium;
             arrival.mask = mask_of(path.kind);
         }
-        set_shading_point(scene_, rest, hit, arrival, needs, point_);
-        if (point_.material->coverage > 0.0 || (reports_openings_ && !point_.material->thin)) {
-            reported_ = &hit;
-            tell(k, static_cast<const ShadingPoint*>(&point_), t);
-            return;
-        }
-        behind_.push_back({leaving_ray(point_.surface, whole.direction, whole.t_max - t), k, t});
+        set_shading_point(scene_, ray, hit, arrival, needs, point_);
+    }
+    /// True if `point_` is to be reported.
+    [[nodiscard]] bool is_reported() const {
+        return point_.material->coverage > 0.0 || (reports_openings_ && !point_.material->thin);
+    }
+    /// Finds the surfaces at the place of `point_`, the first one met there.
+    template <class AnyPath>
+    void search_here(const AnyPath& path) {
+        first_here_ = point_.surface;
+        searched_ = true;
+        here_.find(point_.surface, *reported_, *reported_ray_,
+                   {stats_, mask_of(path.kind), path.time});
     }
 
     const Scene& scene_;
@@ -142,6 +197,10 @@ class VisibleBatch {
     MaterialCache constant_;
     ShadingPoint point_;
     const Hit* reported_ = nullptr;
+    const Ray* reported_ray_ = nullptr;  ///< of the first surface at the place
+    CoincidentSurfaces here_;            ///< at the place of the point
+    bool searched_ = false;              ///< `here_` and `first_here_` are set
+    ShapeSurface first_here_;            ///< the first surface at the place
     std::vector<Hit> hits_;
     std::vector<float> times_;  ///< [ray]; only if something moves
     // Rays of one kind; only if parts have visibility masks.

@@ -79,7 +79,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
         set_shading_point(scene_, ray, hit_, arrival, {.constant = &constant_}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
-        if (draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage)) {
+        if (stops_here(front, arrival, draws)) {
             faces_.find(point_, ray.direction, arrival, mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
@@ -89,10 +89,28 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
             return Meets::Surface;
         }
         if (passed_) return Meets::Nothing;
-        if (scattering_.has_open_boundaries()) pass_opening(front);
-        ray = leaving_ray(point_.surface, ray.direction);
+        ray = beyond_;
     }
     return Meets::Nothing;
+}
+
+bool RandomWalk::stops_here(Front& front, const Arrival& arrival, const WalkRandomness& draws) {
+    const auto stops = [&] {
+        return draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage);
+    };
+    if (stops()) return true;
+    if (passed_) return false;
+    here_.find(point_.surface, hit_, front.ray, {stats_, mask(), arrival.time});
+    beyond_ = leaving_ray(point_.surface, front.ray.direction);
+    while (true) {
+        if (scattering_.has_open_boundaries()) pass_opening(front);
+        const Hit* const other = here_.next();
+        if (other == nullptr) return false;
+        hit_ = *other;
+        const Arrival onward{!front.media.empty(), 0.0, arrival.time, arrival.meets_backs};
+        set_shading_point(scene_, here_.ray(), hit_, onward, {.constant = &constant_}, point_);
+        if (stops()) return true;
+    }
 }
 
 void RandomWalk::set_vertex(const Front& front, const WalkStart& start, Meets meets,

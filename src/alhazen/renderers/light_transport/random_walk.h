@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
@@ -67,6 +68,7 @@ class RandomWalk {
           constant_(scene),
           bsdfs_(scene),
           faces_(scene),
+          here_(scene),
           surfaces_(scene, stats) {}
 
     /// Sets `vertices`. If a path from the eye leaves the scene, sets `escape()` to direction and
@@ -110,6 +112,10 @@ class RandomWalk {
     [[nodiscard]] Meets find(Front& front, const WalkRandomness& draws, const WalkStart& start);
     /// Applies the absorption of a medium that does not scatter.
     void absorb(Front& front, double length) const;
+    /// True if the path stops at the surface that was hit, or at one behind it at the same place,
+    /// which is then the surface hit; else `beyond_` is the ray behind them.
+    [[nodiscard]] bool stops_here(Front& front, const Arrival& arrival,
+                                  const WalkRandomness& draws);
     /// Enters or leaves a volume through an uncovered part of its boundary.
     void pass_opening(Front& front);
     /// Samples a segment of that length in a scattering medium. True if the path scatters in it.
@@ -145,6 +151,8 @@ class RandomWalk {
     BsdfCache bsdfs_;
     ShadingPoint point_;
     CoincidentFaces faces_;  ///< at the point
+    CoincidentSurfaces here_;
+    Ray beyond_;
     PassedSurfaces surfaces_;
     ScatterPoint opening_;  ///< a surface that is passed at an uncovered part
     Hit hit_;

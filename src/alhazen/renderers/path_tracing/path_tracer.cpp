@@ -113,7 +113,7 @@ void PathTracer::bounce(bool first) {
                 return;
             }
             ++counters_[path.kind].hit;
-            meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
+            meet(path, rays_[k], *point, t, sum);
         },
         [&](std::size_t k, const Hit& hit) {
             return takes_into_lane(paths_[alive_[k]], rays_[k], hit);
@@ -129,27 +129,36 @@ void PathTracer::bounce(bool first) {
     random_.keep(alive_);
 }
 
-void PathTracer::pass(EyePath& path, const Ray& ray, const ShadingPoint& point) {
-    if (path.met >= kMaxPassedSurfaces) return record_step(path, PathStep::PassedMost);
+bool PathTracer::pass(EyePath& path, const ShadingPoint& point) {
+    if (path.met >= kMaxPassedSurfaces) {
+        record_step(path, PathStep::PassedMost);
+        return false;
+    }
     record_step(path, PathStep::Straight);
     if (media_.has_open_boundaries()) {
         passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
         passed_.cross_opening(path.media);
         path.inside = !path.media.empty();
     }
-    go_on(path, leaving_ray(point.surface, ray.direction));
+    return true;
 }
 
-void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
-                      double t, Spectrum& sum) {
+void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, double t,
+                      Spectrum& sum) {
     if (const Medium* medium = path.media.here(); medium != nullptr) {
         if (cross_medium(path, *medium, ray, t, sum)) return;
     }
     path.travelled += t;
     path.cone = path.cone.from(t);
-    if (!random_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
-        return pass(path, ray, point);
+    // `point` is that of `visible_`, which the other surfaces at its place are read into.
+    while (!random_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
+        if (!pass(path, point)) return;
+        if (visible_.next_here(path) == nullptr) {
+            return go_on(path, visible_.beyond(ray.direction));
+        }
+        if (path.sample == recorded_) record_ray(path, visible_.ray_here(), &point, 0.0);
     }
+    const Hit& hit = visible_.reported_hit();
     if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
     faces_.find(point, ray.direction, arrival, mask_of(path.kind));

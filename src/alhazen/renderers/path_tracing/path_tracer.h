@@ -147,10 +147,10 @@ class PathTracer {
     void escape_all();
     /// Adds the light of the environment to a path that leaves the scene.
     void add_far_light(const EyePath& path, const Illumination::FarLight& far, Spectrum& sum);
-    /// Continues straight through an uncovered part of the surface.
-    void pass(EyePath& path, const Ray& ray, const ShadingPoint& point);
-    void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
-              Spectrum& sum);
+    /// Passes an uncovered part of the surface straight; false if the path ends there.
+    [[nodiscard]] bool pass(EyePath& path, const ShadingPoint& point);
+    /// `point`: reported by `visible_`.
+    void meet(EyePath& path, const Ray& ray, const ShadingPoint& point, double t, Spectrum& sum);
     /// Adds emission and direct light at the surface where the path stops, and scatters the path.
     void stop(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
               Spectrum& sum);

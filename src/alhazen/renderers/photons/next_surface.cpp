@@ -49,9 +49,7 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
         set_shading_point(scene_, path.ray, hit_, arrival, {}, point_);
         path.cone = path.cone.from(hit_.t);
         path.travelled += hit_.t;
-        const double coverage = point_.material->coverage;
-        const std::uint32_t number = path.met++;
-        if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) {
+        if (stops_here(path, arrival, numbers)) {
             faces_.find(point_, path.ray.direction, arrival, path.mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
@@ -60,13 +58,33 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
             return PathMeets::Surface;
         }
         if (path.passed) return PathMeets::Nothing;
+        path.ray = beyond_;
+    }
+    return PathMeets::Nothing;
+}
+
+bool NextSurface::stops_here(PathEnd& path, const Arrival& arrival, const PathNumbers& numbers) {
+    const auto stops = [&] {
+        const double coverage = point_.material->coverage;
+        const std::uint32_t number = path.met++;
+        return coverage >= 1.0 || numbers.at(kCoverage + number) < coverage;
+    };
+    if (stops()) return true;
+    if (path.passed) return false;
+    here_.find(point_.surface, hit_, path.ray, {stats_, path.mask(), path.time});
+    beyond_ = leaving_ray(point_.surface, path.ray.direction);
+    while (true) {
         if (media_.has_open_boundaries()) {
             opening_.set(scene_, point_, path.media, *path.waves);
             opening_.cross_opening(path.media);
         }
-        path.ray = leaving_ray(point_.surface, path.ray.direction);
+        const Hit* const other = here_.next();
+        if (other == nullptr) return false;
+        hit_ = *other;
+        const Arrival onward{!path.media.empty(), arrival.width, path.time, arrival.meets_backs};
+        set_shading_point(scene_, here_.ray(), hit_, onward, {}, point_);
+        if (stops()) return true;
     }
-    return PathMeets::Nothing;
 }
 
 bool NextSurface::cross_medium(PathEnd& path, double length, const PathNumbers& numbers) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
@@ -63,6 +64,7 @@ class NextSurface {
           stats_(stats),
           media_(scene),
           faces_(scene),
+          here_(scene),
           surfaces_(scene, stats) {}
 
     /// Advances to the next event: Nothing if the path leaves the scene.
@@ -84,6 +86,10 @@ class NextSurface {
     void go_on_in_volume(PathEnd& path, const Vec2& u) const;
 
   private:
+    /// True if the path stops at the surface that was hit, or at one behind it at the same place,
+    /// which is then the surface hit; else `beyond_` is the ray behind them.
+    [[nodiscard]] bool stops_here(PathEnd& path, const Arrival& arrival,
+                                  const PathNumbers& numbers);
     /// Attenuates over the length; true if the path is scattered before its end.
     [[nodiscard]] bool cross_medium(PathEnd& path, double length, const PathNumbers& numbers);
 
@@ -93,6 +99,8 @@ class NextSurface {
     ScatteringMedia media_;
     ShadingPoint point_;
     CoincidentFaces faces_;  ///< at the point
+    CoincidentSurfaces here_;
+    Ray beyond_;
     PassedSurfaces surfaces_;
     ScatterPoint opening_;  ///< a surface passed where it does not cover
     VolumePoint volume_;

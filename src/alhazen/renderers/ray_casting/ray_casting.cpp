@@ -80,15 +80,19 @@ class Caster {
         radiance[sample] = radiance[sample] + left * job_.scene.background;
     }
 
-    /// Shades the surface and queues the remainder of the ray.
+    /// Shades the surfaces at the place of the point and queues the remainder of the ray.
     void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
               std::span<Rgb> radiance) {
-        const double coverage = point.material->coverage;
-        radiance[o.sample] += (o.left * coverage) * unhindered_light(job_.scene, ambient_, point);
-        const double left = o.left * (1.0 - coverage);
-        if (!(left >= kLeastTransmittance)) return;
-        behind_.push_back({o.sample, left, o.cone.from(t)});
-        rays_behind_.push_back(leaving_ray(point.surface, ray.direction));
+        OnWay behind{o.sample, o.left, o.cone.from(t)};
+        for (const ShadingPoint* p = &point; p != nullptr; p = visible_.next_here(behind)) {
+            const double coverage = p->material->coverage;
+            radiance[o.sample] +=
+                (behind.left * coverage) * unhindered_light(job_.scene, ambient_, *p);
+            behind.left *= 1.0 - coverage;
+            if (!(behind.left >= kLeastTransmittance)) return;
+        }
+        behind_.push_back(behind);
+        rays_behind_.push_back(visible_.beyond(ray.direction));
     }
 
     /// Finds the next surface along the queued rays.

@@ -6,20 +6,12 @@
 #include <utility>
 
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
 
 namespace alhazen {
 
 namespace {
-
-/// Rays begin that many error bounds away from the surface that they leave (leaving_ray): they miss
-/// all faces within.
-constexpr double kErrorsAway = LeavingRays::kErrorsAway, kLeastCosine = 1e-3;
-
-double error_along(const ShapeSurface& surface, const Vec3& direction) {
-    const double cosine = std::max(std::abs(dot(direction, surface.normal)), kLeastCosine);
-    return kErrorsAway * dot(abs(surface.normal), surface.error) / cosine;
-}
 
 /// The `number`-th direction in which ends of volumes are searched for, if a ray crosses a surface
 /// along `direction`: straight on, then nearly along the surface.
@@ -56,9 +48,7 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const auto material = static_cast<std::size_t>(surface.materials[0]);
     if (!kinds_ || (*kinds_)[material] != Kind::BoundsVolume) return;
     if (surface.media.known || point.material->thin || point.material->coverage < 1.0) return;
-    constexpr double kLeast = 0x1p-500;
-    const double away = error_along(surface, direction);
-    ray_ = {surface.point - away * direction, direction, 0.0, std::max(2.0 * away, kLeast)};
+    ray_ = CoincidentSurfaces::around(surface, direction);
     hits_.clear();
     scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
     const HitParts own{surface.part, surface.instance};
@@ -70,10 +60,6 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     } else if (!others_.empty()) {
         sort_entered(point, direction, arrival, mask);
     }
-}
-
-double CoincidentFaces::reach(const ShapeSurface& surface, const Ray& ray) {
-    return error_along(surface, ray.direction);
 }
 
 void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
@@ -159,7 +145,8 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
         if (left == within_.rend()) continue;
         if (left->entered < entered_.size()) {
             // Faces that coincide are left together.
-            if (hit.t - last > 2.0 * error_along(other_.surface, ray.direction)) last = hit.t;
+            if (hit.t - last > 2.0 * CoincidentSurfaces::reach(other_.surface, ray.direction))
+                last = hit.t;
             entered_[left->entered].left[number] = last;
             --missing;
         }

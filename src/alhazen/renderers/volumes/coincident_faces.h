@@ -48,8 +48,6 @@ class CoincidentFaces {
     [[nodiscard]] const OtherFaces& others() const { return others_; }
     /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
-    /// Distance along the ray within which faces coincide with the surface.
-    [[nodiscard]] static double reach(const ShapeSurface& surface, const Ray& ray);
     /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 

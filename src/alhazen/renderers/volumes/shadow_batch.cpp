@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/volumes/exact_optics.h"
 
@@ -238,8 +239,9 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         // Light passes through the back of a single-sided surface.
         if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
         if (crossed_already(surface)) continue;
-        const bool alone = i + 1 == crossings_.size() ||
-                           crossings_[i + 1].t - crossing.t > CoincidentFaces::reach(surface, ray);
+        const bool alone =
+            i + 1 == crossings_.size() ||
+            crossings_[i + 1].t - crossing.t > CoincidentSurfaces::reach(surface, ray.direction);
         if (alone) {
             together_.clear();
         } else {

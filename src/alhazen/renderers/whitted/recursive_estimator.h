@@ -167,7 +167,7 @@ class RecursiveEstimator {
             const Coherence coherence = depth == 0 ? Coherence::Coherent : Coherence::Any;
             direct_ ? direct_->expect(coherence) : shadows_.expect(coherence);
             intersect_surfaces(part, depth, met == 0, front);
-            direct_ ? direct_->finish() : shadows_.finish();
+            finish_light();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Randomness>) random_.gather(front, depth);
             gather(front, part.radiance);
@@ -184,6 +184,9 @@ class RecursiveEstimator {
         while (fronts_.size() <= static_cast<std::size_t>(depth)) fronts_.emplace_back();
         return fronts_[static_cast<std::size_t>(depth)];
     }
+
+    /// Adds the light of waiting shadow rays.
+    void finish_light() { direct_ ? direct_->finish() : shadows_.finish(); }
 
     /// Finds the next surface along each active ray; `first`: none has been found yet.
     void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
@@ -204,19 +207,27 @@ class RecursiveEstimator {
             Path& path = part.paths[i];
             counters_[path.kind].hit += first;
             if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
-            const double coverage = point->material->coverage;
-            MetSurface& met = front.met.emplace_back();
-            met.ray = i;
-            met.share = coverage * left;
-            shade({*point, rays[k], t, path, depth}, met, front);
-            if constexpr (TreeWatcher<Randomness>) random_.meet(*point, t, path, depth, met);
-            left = (1.0 - coverage) * left;
-            if (met.filtered) left = left * met.filter;
-            if (!(left.max() >= kLeastTransmittance)) return;
+            bool begun = false;
+            for (; point != nullptr; point = visible_.next_here(path)) {
+                const double coverage = point->material->coverage;
+                // `met` must not move while its light waits.
+                if (front.met.size() == front.met.capacity()) finish_light();
+                MetSurface& met = front.met.emplace_back();
+                met.ray = i;
+                met.share = coverage * left;
+                // Further surfaces at the place are at distance 0.
+                shade({*point, rays[k], begun ? 0.0 : t, path, depth}, met, front);
+                if constexpr (TreeWatcher<Randomness>) random_.meet(*point, t, path, depth, met);
+                left = (1.0 - coverage) * left;
+                if (met.filtered) left = left * met.filter;
+                if (!(left.max() >= kLeastTransmittance)) return;
+                if (begun) continue;
+                begun = true;
+                path.cone = path.cone.from(t);
+                if (depth == 0) gone_on_.push_back(path.sample);
+            }
             front.next_active.push_back(i);
-            front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
-            path.cone = path.cone.from(t);
-            if (depth == 0) gone_on_.push_back(path.sample);
+            front.next_rays.push_back(visible_.beyond(rays[k].direction));
         };
         const auto take = [&](std::size_t k, const Hit& hit) {
             if (keeps) eye_hits_[k] = hit;
