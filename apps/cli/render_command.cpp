@@ -198,7 +198,7 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
 
 /// Prints the results of the stop rules.
 void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
-    if (!options.sampling || !options.sampling->has_rounds() || report.rounds.empty()) return;
+    if (!options.sampling || !options.sampling->has_rounds() || report.finished_rounds() == 0) return;
     const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
     tell("{:.1f} samples per pixel, at most {}{}\n", mean, report.most_samples,
          report.out_of_time ? "; out of time" : "");
@@ -261,7 +261,7 @@ int run(const RenderArguments& args) {
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded, options);
     progress.finish();
-    const bool has_rounds = result.sampling && !result.sampling->rounds.empty();
+    const bool has_rounds = result.sampling && result.sampling->finished_rounds() > 0;
     if (result.tiles_done == 0 && !has_rounds && !result.complete) {
         tell("stopped before a tile was done; nothing was written\n");
         return kStopped;
@@ -291,7 +291,7 @@ int run(const RenderArguments& args) {
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);
     if (!result.complete && has_rounds) {
         tell("stopped in round {}: {} of {} tiles have its samples, the rest those before it\n",
-             result.sampling->rounds.size() + 1, result.tiles_done, result.tiles);
+             result.sampling->finished_rounds() + 1, result.tiles_done, result.tiles);
         return kStopped;
     }
     if (!result.complete) {

@@ -211,6 +211,8 @@ TEST(Rounds, AStoppedRoundCountsWhatItTook) {
             const SamplingReport& sampling = *report.sampling;
             EXPECT_EQ(sampling.samples(), report.counters[RayKind::Eye].cast) << tiles;
             EXPECT_EQ(sampling.rounds.size(), tiles > kTiles ? 2U : 1U);
+            EXPECT_TRUE(sampling.stopped);
+            EXPECT_EQ(sampling.finished_rounds(), sampling.rounds.size() - 1);
             EXPECT_EQ(sampling.rounds.back().pixels, (tiles % kTiles) * kTile * kTile);
             EXPECT_EQ(sampling.most_samples, !noise ? 64U : tiles > kTiles ? 16U : 8U);
         }

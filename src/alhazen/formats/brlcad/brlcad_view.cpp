@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include "alhazen/formats/brlcad/brlcad_database.h"
@@ -86,26 +87,52 @@ struct ViewScript {
     std::int64_t line = 1;  ///< of the first line of `text`
 };
 
+/// The mark of a here-document, the first word behind `<<` without `-` and quotes.
+std::string here_mark(std::string_view word) {
+    std::string mark;
+    bool begun = false;
+    for (const char c : word) {
+        if (TextCursor::is_space(c)) {
+            if (begun) break;
+        } else if (begun || c != '-') {
+            begun = true;
+            if (c != '\'' && c != '"' && c != '\\') mark += c;
+        }
+    }
+    return mark;
+}
+
+/// The place of the line that is `mark`, or the size of the text.
+std::size_t line_of_mark(std::string_view text, const std::string& mark) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        while (!line.empty() && TextCursor::is_space(line.back())) line.remove_suffix(1);
+        while (!line.empty() && line.front() == '\t') line.remove_prefix(1);
+        if (!mark.empty() && line == mark) return at;
+        at = end + 1;
+    }
+    return text.size();
+}
+
 /// The here-documents of a shell script (`saveview` adds one for each view), or the text itself.
 std::vector<ViewScript> view_scripts(std::string_view text) {
     std::vector<ViewScript> scripts;
     std::int64_t line = 1;
+    const auto pass = [&](std::size_t size) {
+        line += std::count(text.begin(), text.begin() + std::ptrdiff_t(size), '\n');
+        text.remove_prefix(size);
+    };
     for (;;) {
         const std::size_t document = text.find("<<");
         if (document == std::string_view::npos) break;
         const std::size_t end = std::min(text.find('\n', document), text.size() - 1);
-        std::string_view mark = text.substr(document + 2, end - document - 1);
-        while (!mark.empty() && TextCursor::is_space(mark.back())) mark.remove_suffix(1);
-        while (!mark.empty() && TextCursor::is_space(mark.front())) mark.remove_prefix(1);
-        line += std::count(text.begin(), text.begin() + std::ptrdiff_t(end + 1), '\n');
+        const std::string mark = here_mark(text.substr(document + 2, end - document - 1));
         const std::string_view command = text.substr(0, document);
-        text.remove_prefix(end + 1);
-        const std::size_t last =
-            mark.empty() ? std::string_view::npos : text.find("\n" + std::string(mark));
-        const std::size_t size = last == std::string_view::npos ? text.size() : last + 1;
+        pass(end + 1);
+        const std::size_t size = line_of_mark(text, mark);
         scripts.push_back({command, text.substr(0, size), line});
-        line += std::count(text.begin(), text.begin() + std::ptrdiff_t(size), '\n');
-        text.remove_prefix(size);
+        pass(std::min(size + mark.size(), text.size()));
     }
     if (scripts.empty()) scripts.push_back({{}, text, 1});
     return scripts;
@@ -132,6 +159,7 @@ class ViewReader {
     /// Adds the cameras of a script. Each run of `rt` begins with its own defaults.
     void read(const ViewScript& script) {
         state_ = State{};
+        ++scripts_;
         double angle = 0.0;
         if (option_numbers(script.command, 'p', {&angle, 1}) && angle >= 0.0 && angle < 180.0) {
             state_.perspective_deg = angle;
@@ -280,12 +308,13 @@ class ViewReader {
         cameras_.push_back(std::move(camera));
     }
 
-    /// The name of the frame, or its number where it has none or that is taken.
-    [[nodiscard]] std::string unused_name() const {
+    /// The name of the frame, or its number, with that of its script where another has the name.
+    std::string unused_name() {
         const std::string number = std::to_string(cameras_.size());
         std::string name = "frame " + (state_.name.empty() ? number : state_.name.substr(0, 40));
-        const auto taken = [&](const CameraDescription& one) { return one.name == name; };
-        while (std::any_of(cameras_.begin(), cameras_.end(), taken)) name += " of view " + number;
+        if (names_.contains(name)) name += " of view " + std::to_string(scripts_ - 1);
+        if (names_.contains(name)) name += ", camera " + number;
+        names_.insert(name);
         return name;
     }
 
@@ -303,6 +332,8 @@ class ViewReader {
     Diagnostics& diagnostics_;
     FileLocation where_;
     State state_;
+    std::size_t scripts_ = 0;  ///< read so far
+    std::set<std::string> names_;
     bool changed_ = false;
     std::vector<CameraDescription> cameras_;
 };

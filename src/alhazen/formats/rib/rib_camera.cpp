@@ -103,8 +103,9 @@ void RibCamera::add(const Affine& camera_from_world, const FileLocation& where,
     CameraDescription camera;
     camera.name = "camera";
     // The screen window fills the picture, whatever the shape of its pixels.
-    camera.aspect = format_ ? double(*scene.picture.width) / double(*scene.picture.height)
-                            : (right - left) / (top - bottom);
+    camera.aspect = format_         ? double(*scene.picture.width) / double(*scene.picture.height)
+                    : frame_aspect_ ? ratio
+                                    : (right - left) / (top - bottom);
     camera.location = where;
     if (perspective_) {
         camera.camera = PerspectiveCamera{world.point({0, 0, 0}),

@@ -142,6 +142,7 @@ class BeamTreeMaker {
                 weights.emplace_back(-area * node.contribution.max(), weights.size());
             }
         }
+        if (weights.empty()) return;
         const std::uint64_t left = most - std::min(most, tests());
         const auto kept = static_cast<std::size_t>(double(left) / std::max(each, 1.0));
         if (weights.size() <= kept) return;

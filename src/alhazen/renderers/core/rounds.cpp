@@ -118,6 +118,7 @@ class RoundRender {
         if (pixels > 0) {
             samples_ += count;
             report_.rounds.push_back({count, pixels, last_seconds_});
+            report_.stopped = !report.complete();
         }
         if (!report.complete()) return report;
         last_work_ = static_cast<double>(count) * static_cast<double>(wanting_);

@@ -156,22 +156,21 @@ int intersect_side(const Frustum& f, const FrustumLine& l, const Ray& ray, Shape
         if (!(l.discriminant >= 0.0)) return 0;
         t = roots(l);
     }
-    if (f.is_flat()) {
-        const Interval around = inside_cylinder(f, l);
-        if (around.empty()) return 0;
-        t = {std::clamp(t.lo, around.lo, around.hi), std::clamp(t.hi, around.lo, around.hi)};
-    }
+    const Interval around = f.is_flat() ? inside_cylinder(f, l) : kWholeLine;
+    if (around.empty()) return 0;
     const auto between_the_ends = [&](double root) {
         const double z = l.oz + root * l.dz;
         return -half_height <= z && z < half_height;
     };
     int count = 0;
-    if (between_the_ends(t.lo)) {
-        count += report_crossing(ray, {l.shift + t.lo, 0, 0, 0}, hits);
-    }
-    if (l.a != 0.0 && between_the_ends(t.hi)) {
-        count += report_crossing(ray, {l.shift + t.hi, 0, 0, 0}, hits + count);
-    }
+    const auto report = [&](double root) {
+        // A crossing of the other nappe is not between the ends, wherever it is kept.
+        const double inside = std::clamp(root, around.lo, around.hi);
+        if (!between_the_ends(root) || !between_the_ends(inside)) return;
+        count += report_crossing(ray, {l.shift + inside, 0, 0, 0}, hits + count);
+    };
+    report(t.lo);
+    if (l.a != 0.0) report(t.hi);
     return count;
 }
 

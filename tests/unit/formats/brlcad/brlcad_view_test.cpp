@@ -108,6 +108,21 @@ TEST(BrlcadView, EachHereDocumentIsARunOfItsOwnWithThePerspectiveOfItsCommand) {
                 1e-12);
 }
 
+TEST(BrlcadView, MarksOfHereDocumentsMayBeQuotedAndFollowedByWords) {
+    for (const char* begin :
+         {"<<EOF", "<<'EOF'", "<<-\"EOF\"", "<< EOF 2>log", "<<EOF\nEOF\nrt <<EOF"}) {
+        const auto views =
+            views_of("rt -p60 " + std::string(begin) + "\nae 1 2;\nEOF\necho done\n");
+        ASSERT_EQ(views.size(), 1u) << begin;
+    }
+    const auto views = views_of(
+        "rt <<EOF\nae 1 2; start 0; end; start 1; end;\nEOF\n"
+        "rt <<EOF\nae 3 4; start 0; end; start 0; end;\nEOF\n");
+    ASSERT_EQ(views.size(), 4u);
+    EXPECT_EQ(views[2].name, "frame 0 of view 1");
+    EXPECT_EQ(views[3].name, "frame 0 of view 1, camera 3");
+}
+
 TEST(BrlcadView, LinesAreCountedThroughHereDocuments) {
     Diagnostics found;
     (void)read_brlcad_views("rt <<EOF\nae 1 2;\nEOF\nrt <<EOF\nviewsize 0;\nEOF\n", "a.rt", kBox,

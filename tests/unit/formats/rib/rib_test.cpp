@@ -136,6 +136,10 @@ TEST(Rib, TheScreenWindowFillsThePictureWhateverTheShapeOfItsPixels) {
     EXPECT_EQ(camera("Format 80 40 0.5"), (Camera{80, 40, 2, 2}));
     EXPECT_EQ(camera("Format 64 64 1 FrameAspectRatio 2"), (Camera{64, 32, 4, 2}));
     EXPECT_EQ(camera("Format 64 64 1 FrameAspectRatio 0.5"), (Camera{32, 64, 2, 4}));
+    const auto aspect = import_rib(
+        "FrameAspectRatio 3 ScreenWindow -1 1 -1 1 Projection \"orthographic\" WorldBegin " +
+        bilinear(0) + "WorldEnd");
+    EXPECT_EQ(aspect.scene.cameras.at(0).aspect, 3);
 }
 
 TEST(Rib, MeshesOfPatchesShareTheirBoundariesBitForBit) {

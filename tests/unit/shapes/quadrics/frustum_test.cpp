@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "alhazen/shapes/quadrics/cone.h"
 #include "alhazen/shapes/quadrics/cylinder.h"
 #include "frustum_oracle.h"
@@ -286,6 +289,26 @@ TEST(Frustum, BadFieldsAreReported) {
     EXPECT_EQ(errors(Cone{.base_radius = 0, .top_radius = 0}), 1u);
     EXPECT_EQ(errors(Cone{.base_radius = -1, .top_radius = 1}), 1u);
     EXPECT_EQ(errors(Cone{.base_radius = 0, .top_radius = 1}), 0u);
+}
+
+TEST(Frustum, TheSideOfAFlatConeIsNoCylinder) {
+    // r = 10^4 (1 - z / 2): 10010 - t = 2500 + 250 t at z = 0.004.
+    const Frustum flat({0, 0, 0}, {0, 0, 2}, 1e4, 0);
+    ASSERT_TRUE(flat.is_flat());
+    Ray ray;
+    ray.origin = {10010, 0, 1.5};
+    ray.direction = {-1, 0, -0.05};
+    std::array<ShapeHit, 4> hits;
+    ASSERT_EQ(flat.intersect(ray, false, hits.data()), 1);
+    EXPECT_NEAR(hits[0].t, 7510.0 / 251.0, 1e-9);
+    ray.origin = {10010, 0, 1};
+    ray.direction = {-1, 0, 0.01};
+    // 10010 - t = 1e4 (1 - (1 + t / 100) / 2) = 5000 - 50 t has no t >= 0; the far side has.
+    const int far = flat.intersect(ray, false, hits.data());
+    for (int k = 0; k < far; ++k) {
+        const Vec3 q = ray.origin + hits[std::size_t(k)].t * ray.direction;
+        EXPECT_NEAR(std::hypot(q.x, q.y), 1e4 * (1 - q.z / 2), 1e-6);
+    }
 }
 
 }  // namespace
