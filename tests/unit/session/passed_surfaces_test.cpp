@@ -126,5 +126,24 @@ TEST(PassedSurfaces, LightDoesNotLeakThroughAWallBehindADecal) {
     }
 }
 
+TEST(PassedSurfaces, LightMeetsTheFacesOfACardThatTheEyeSees) {
+    for (const char* faces : {"(0, 1, 2, 3), (3, 2, 1, 0)", "(3, 2, 1, 0), (0, 1, 2, 3)"}) {
+        for (const char* height : {"3", "-3"}) {
+            const std::string above = std::string("0.3, 0.2, ") + height;
+            const std::string text =
+                "alhazen 1\nperspective_camera { eye = (" + above +
+                "); look_at = (0, 0, 0); up = (0, 1, 0); fov_deg = 30 }\n" +
+                "spot_light { position = (0, 0, " + height + "); direction = (0, 0, " +
+                (height[0] == '-' ? "1" : "-1") + "); outer_angle_deg = 20 }\n" +
+                "mesh { points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]\nfaces = [" +
+                faces + "]\nmaterial = { diffuse = (0, 0.5, 0); double_sided = false } }\n";
+            const double expected = picture(text, "path_tracing", 64).g;
+            EXPECT_GT(expected, 0.01);
+            EXPECT_NEAR(picture(text, "light_tracing", 256).g, expected, 0.1 * expected)
+                << faces << height;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::testing::ALHAZEN_TEST_FILE

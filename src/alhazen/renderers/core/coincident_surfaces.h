@@ -3,7 +3,9 @@
 /// other side, behind what a decal leaves open the wall.
 ///
 /// Conventions: rays that leave a surface begin outside its error bound and miss all that lies
-/// within; so the rest of a ray does not find these surfaces. Surfaces of one part that face the
+/// within; so the rest of a ray does not find these surfaces. Paths
+/// that meet the back of a single-sided surface stop there only if they stop at no other surface at
+/// its place: light meets the faces of a leaf that the eye sees. Surfaces of one part that face the
 /// same side count once: where a ray meets the edge between two triangles it hits both.
 
 #include <cstddef>
@@ -14,6 +16,12 @@
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
+
+/// A hit and its ray.
+struct HitAlong {
+    Hit hit;
+    Ray ray;
+};
 
 class CoincidentSurfaces {
   public:
@@ -35,6 +43,7 @@ class CoincidentSurfaces {
     /// The hit of the next of them along `ray()`; null: none is left. Valid until the next `find`.
     [[nodiscard]] const Hit* next() { return next_ < hits_.size() ? &hits_[next_++] : nullptr; }
     [[nodiscard]] const Ray& ray() const { return ray_; }
+    [[nodiscard]] bool any_left() const { return next_ < hits_.size(); }
 
   private:
     /// A side of a part at a border of one of its pieces.

@@ -149,6 +149,11 @@ struct PointNeeds {
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point);
 
+/// True if the ray hit the back of a single-sided surface (Arrival::meets_backs).
+[[nodiscard]] inline bool is_hit_from_behind(const ShadingPoint& point) {
+    return !point.entering && is_unseen_from_behind(*point.material);
+}
+
 /// As `set_shading_point` with `point.surface` already set, for renderers that find surfaces
 /// without rays.
 void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,

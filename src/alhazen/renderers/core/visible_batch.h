@@ -86,6 +86,15 @@ class VisibleBatch {
     [[nodiscard]] Ray beyond(const Vec3& direction) const {
         return leaving_ray(searched_ ? first_here_ : point_.surface, direction);
     }
+    /// The ray of `reported_hit`.
+    [[nodiscard]] const Ray& reported_ray() const {
+        return is_further_ ? here_.ray() : *reported_ray_;
+    }
+    /// Reports a surface at the place again.
+    template <class AnyPath>
+    void report(const HitAlong& at, const AnyPath& path) {
+        if (is_further_) shade(at.ray, at.hit, path, path.cone.width_at(0.0));
+    }
     /// The ray along which `next_here` found its point.
     [[nodiscard]] const Ray& ray_here() const { return here_.ray(); }
     /// While a point is reported that the ray passes: reports the next surface at the same place;
@@ -94,6 +103,7 @@ class VisibleBatch {
     [[nodiscard]] const ShadingPoint* next_here(const AnyPath& path) {
         if (!searched_) search_here(path);
         while (const Hit* hit = here_.next()) {
+            is_further_ = true;
             shade(here_.ray(), *hit, path, path.cone.width_at(0.0));
             if (!is_reported()) continue;
             reported_ = hit;
@@ -146,7 +156,7 @@ class VisibleBatch {
         shade(rest, hit, path, path.cone.width_at(t));
         reported_ = &hit;
         reported_ray_ = &rest;
-        searched_ = false;
+        searched_ = is_further_ = false;
         if (is_reported()) {
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
@@ -157,6 +167,7 @@ class VisibleBatch {
             shade(here_.ray(), *other, path, path.cone.width_at(t));
             if (!is_reported()) continue;
             reported_ = other;
+            is_further_ = true;
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
         }
@@ -200,6 +211,7 @@ class VisibleBatch {
     const Ray* reported_ray_ = nullptr;  ///< of the first surface at the place
     CoincidentSurfaces here_;            ///< at the place of the point
     bool searched_ = false;              ///< `here_` and `first_here_` are set
+    bool is_further_ = false;            ///< the point is not the first one at the place
     ShapeSurface first_here_;            ///< the first surface at the place
     std::vector<Hit> hits_;
     std::vector<float> times_;  ///< [ray]; only if something moves

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "alhazen/renderers/light_transport/emission_of.h"
 
@@ -95,22 +96,33 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
 }
 
 bool RandomWalk::stops_here(Front& front, const Arrival& arrival, const WalkRandomness& draws) {
-    const auto stops = [&] {
-        return draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage);
-    };
-    if (stops()) return true;
-    if (passed_) return false;
-    here_.find(point_.surface, hit_, front.ray, {stats_, mask(), arrival.time});
-    beyond_ = leaving_ray(point_.surface, front.ray.direction);
-    while (true) {
-        if (scattering_.has_open_boundaries()) pass_opening(front);
-        const Hit* const other = here_.next();
-        if (other == nullptr) return false;
-        hit_ = *other;
-        const Arrival onward{!front.media.empty(), 0.0, arrival.time, arrival.meets_backs};
-        set_shading_point(scene_, here_.ray(), hit_, onward, {.constant = &constant_}, point_);
-        if (stops()) return true;
+    std::optional<HitAlong> back;
+    for (const Hit* other = &hit_; other != nullptr; other = here_.next()) {
+        const bool is_first = other == &hit_;
+        if (!is_first) {
+            hit_ = *other;
+            const Arrival onward{!front.media.empty(), 0.0, arrival.time, arrival.meets_backs};
+            set_shading_point(scene_, here_.ray(), hit_, onward, {.constant = &constant_}, point_);
+        }
+        const bool stops =
+            draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage);
+        if (stops && (passed_ || !is_hit_from_behind(point_))) return true;
+        if (passed_) return false;
+        if (is_first) {
+            here_.find(point_.surface, hit_, front.ray, {stats_, mask(), arrival.time});
+            beyond_ = leaving_ray(point_.surface, front.ray.direction);
+        }
+        if (stops) {
+            if (!back && !here_.any_left()) return true;
+            if (!back) back = {hit_, is_first ? front.ray : here_.ray()};
+        } else if (scattering_.has_open_boundaries()) {
+            pass_opening(front);
+        }
     }
+    if (!back) return false;
+    hit_ = back->hit;
+    set_shading_point(scene_, back->ray, hit_, arrival, {.constant = &constant_}, point_);
+    return true;
 }
 
 void RandomWalk::set_vertex(const Front& front, const WalkStart& start, Meets meets,

@@ -1,6 +1,7 @@
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
@@ -151,14 +152,23 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
     path.travelled += t;
     path.cone = path.cone.from(t);
     // `point` is that of `visible_`, which the other surfaces at its place are read into.
-    while (!random_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
-        if (!pass(path, point)) return;
-        if (visible_.next_here(path) == nullptr) {
-            return go_on(path, visible_.beyond(ray.direction));
+    std::optional<HitAlong> back;
+    while (true) {
+        const bool stops = random_.stops(ids_[path.sample], path.met++, point.material->coverage);
+        if (stops && !is_hit_from_behind(point)) break;
+        if (stops) {
+            if (!back) back = {visible_.reported_hit(), visible_.reported_ray()};
+        } else if (!pass(path, point)) {
+            return;
         }
-        if (path.sample == recorded_) record_ray(path, visible_.ray_here(), &point, 0.0);
+        if (visible_.next_here(path) == nullptr) {
+            if (!back) return go_on(path, visible_.beyond(ray.direction));
+            visible_.report(*back, path);
+            break;
+        }
+        if (path.sample == recorded_ && !stops) record_ray(path, visible_.ray_here(), &point, 0.0);
     }
-    const Hit& hit = visible_.reported_hit();
+    const Hit& hit = back && is_hit_from_behind(point) ? back->hit : visible_.reported_hit();
     if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
     faces_.find(point, ray.direction, arrival, mask_of(path.kind));

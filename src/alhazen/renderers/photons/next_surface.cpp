@@ -1,6 +1,7 @@
 #include "alhazen/renderers/photons/next_surface.h"
 
 #include <limits>
+#include <optional>
 
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/sampling/random.h"
@@ -64,27 +65,36 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
 }
 
 bool NextSurface::stops_here(PathEnd& path, const Arrival& arrival, const PathNumbers& numbers) {
-    const auto stops = [&] {
+    std::optional<HitAlong> back;
+    for (const Hit* other = &hit_; other != nullptr; other = here_.next()) {
+        const bool is_first = other == &hit_;
+        if (!is_first) {
+            hit_ = *other;
+            Arrival onward = arrival;
+            onward.inside = !path.media.empty();
+            set_shading_point(scene_, here_.ray(), hit_, onward, {}, point_);
+        }
         const double coverage = point_.material->coverage;
         const std::uint32_t number = path.met++;
-        return coverage >= 1.0 || numbers.at(kCoverage + number) < coverage;
-    };
-    if (stops()) return true;
-    if (path.passed) return false;
-    here_.find(point_.surface, hit_, path.ray, {stats_, path.mask(), path.time});
-    beyond_ = leaving_ray(point_.surface, path.ray.direction);
-    while (true) {
-        if (media_.has_open_boundaries()) {
+        const bool stops = coverage >= 1.0 || numbers.at(kCoverage + number) < coverage;
+        if (stops && (path.passed || !is_hit_from_behind(point_))) return true;
+        if (path.passed) return false;
+        if (is_first) {
+            here_.find(point_.surface, hit_, path.ray, {stats_, path.mask(), path.time});
+            beyond_ = leaving_ray(point_.surface, path.ray.direction);
+        }
+        if (stops) {
+            if (!here_.any_left() && !back) return true;
+            if (!back) back = {hit_, is_first ? path.ray : here_.ray()};
+        } else if (media_.has_open_boundaries()) {
             opening_.set(scene_, point_, path.media, *path.waves);
             opening_.cross_opening(path.media);
         }
-        const Hit* const other = here_.next();
-        if (other == nullptr) return false;
-        hit_ = *other;
-        const Arrival onward{!path.media.empty(), arrival.width, path.time, arrival.meets_backs};
-        set_shading_point(scene_, here_.ray(), hit_, onward, {}, point_);
-        if (stops()) return true;
     }
+    if (!back) return false;
+    hit_ = back->hit;
+    set_shading_point(scene_, back->ray, hit_, arrival, {}, point_);
+    return true;
 }
 
 bool NextSurface::cross_medium(PathEnd& path, double length, const PathNumbers& numbers) {
