@@ -301,6 +301,12 @@ std::string stl_bytes(std::span<const NamedMesh> meshes) {
             for (std::size_t k = 0; k < 3; ++k) {
                 v[k + 1] = from.placement.point(from.mesh->positions[placed(t, mirrored)[k]]);
             }
+            for (std::size_t k = 1; k < 4; ++k) {
+                if (max_component(abs(v[k])) <= double(std::numeric_limits<float>::max())) continue;
+                throw Error(ErrorKind::Scene,
+                            (from.name.empty() ? "a mesh" : "mesh '" + from.name + "'") +
+                                ": STL holds coordinates up to 3.4e38 only");
+            }
             const Vec3 area = cross(v[2] - v[1], v[3] - v[1]);
             const double size = length(area);
             if (size > 0.0 && std::isfinite(size)) v[0] = area / size;

@@ -429,6 +429,16 @@ TEST(MeshExport, AFaceHasTheMaterialOfItsFirstVertex) {
     EXPECT_NE(obj_text({&named, 1}).find("usemtl part\nf 1 2 3\nf 3 2 4\n"), std::string::npos);
 }
 
+TEST(MeshExport, AnStlBeyondFloatIsRefused) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {3e38, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const NamedMesh fits{"part", &mesh, Affine{}, "", {}};
+    EXPECT_EQ(stl_bytes({&fits, 1}).size(), 134u);
+    const NamedMesh beyond{"part", &mesh, Affine::scale({2, 1, 1}), "", {}};
+    EXPECT_THROW((void)stl_bytes({&beyond, 1}), Error);
+}
+
 TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
     std::vector<Material> many(3);
     for (Material& m : many) m.double_sided = false;
