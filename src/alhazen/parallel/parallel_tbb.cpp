@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <memory>
@@ -97,6 +98,13 @@ void run_in_arena(const Work& work) {
     });
 }
 
+/// Throws if an exception of another task has ended the group of the calling task: then a call of
+/// TBB returns without having run all of its tasks. The exception is dropped, for the group throws
+/// the first one.
+void end_with_group() {
+    if (tbb::is_current_task_group_canceling()) throw Interrupted();
+}
+
 /// TBB uses at most the cores of the machine, and prints a warning to stderr when asked for more.
 int most_threads(int wanted) {
     if (wanted <= available_cores()) return wanted;
@@ -155,6 +163,7 @@ void parallel_for(std::size_t count, std::size_t grain,
                 run_chunks(range.begin(), range.end());
             },
             tbb::simple_partitioner());
+        end_with_group();
     });
 }
 
@@ -171,7 +180,10 @@ void parallel_invoke(const std::function<void()>& a, const std::function<void()>
         inheriting(b)();
         return;
     }
-    run_in_arena([&] { tbb::parallel_invoke(inheriting(a), inheriting(b)); });
+    run_in_arena([&] {
+        tbb::parallel_invoke(inheriting(a), inheriting(b));
+        end_with_group();
+    });
 }
 
 }  // namespace alhazen
