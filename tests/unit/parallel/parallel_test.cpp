@@ -64,6 +64,31 @@ std::size_t most_memory() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
+TEST(Parallel, ACallThatReturnsHasRunAllItsTasksAlsoBesideOneThatThrows) {
+    std::atomic<int> incomplete{0};
+    for (int round = 0; round < 2000; ++round) {
+        std::atomic<bool> begun{false};
+        const auto nested = [&] {
+            begun = true;
+            for (int i = 0; i < 20; ++i) {
+                std::atomic<int> ran{0};
+                parallel_invoke([&] { ++ran; }, [&] { ++ran; });
+                if (ran != 2) ++incomplete;
+                ran = 0;
+                parallel_for(4, 1, [&](std::size_t, std::size_t) { ++ran; });
+                if (ran != 4) ++incomplete;
+            }
+        };
+        const auto fails = [&] {
+            for (int i = 0; i < 1000 && !begun; ++i) std::this_thread::yield();
+            throw std::runtime_error("one of them");
+        };
+        EXPECT_THROW(ThreadLimit(2).run([&] { parallel_invoke(nested, fails); }),
+                     std::runtime_error);
+    }
+    EXPECT_EQ(incomplete, 0);
+}
+
 TEST(Parallel, LimitsMadeAgainAndAgainTakeNoMemory) {
     const auto limits = [](int count) {
         for (int i = 0; i < count; ++i) {
