@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 /// Whether a written file waits for the disk.
 enum class Sync {
     ToDisk,  ///< fsync of the file and its folder: holds after a loss of power, too
-    Later    ///< when the system writes it; for what is made again as fast as it is synced
+    Later    ///< when the system writes it; for what is made again in a moment
 };
 
 /// Replaces `path` by `bytes` in one step (temporary file, rename). Throws Error (File) and leaves

@@ -88,7 +88,8 @@ class MappableVector {
     void reserve(std::size_t n) {
         change([&](auto& own) { own.reserve(n); });
     }
-    /// New values of a type without a constructor are uninitialised.
+    /// New values of a type without a constructor are uninitialised, as are those of
+    /// `emplace_back` without arguments.
     void resize(std::size_t n) {
         change([&](auto& own) { own.resize(n); });
     }

@@ -18,8 +18,8 @@ FileLocation place(const std::string& file, const YAML::Mark& mark) {
 }
 
 /// Tracks the nesting of a text line by line before the recursive parser runs. Brackets in quotes,
-/// comments and the middle of plain scalars do not count. A misread bracket (in the lines of a
-/// block scalar) is harmless: the parser has its own guard.
+/// comments and the middle of plain scalars do not count; those at the beginning of the lines of a
+/// block scalar do. Nesting that is missed is harmless: the parser has its own guard.
 class NestingScan {
   public:
     /// The maximum nesting in the line. Precondition: all previous lines were passed.

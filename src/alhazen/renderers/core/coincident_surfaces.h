@@ -3,10 +3,10 @@
 /// other side, behind what a decal leaves open the wall.
 ///
 /// Conventions: rays that leave a surface begin outside its error bound and miss all that lies
-/// within; so the rest of a ray does not find these surfaces. Paths
-/// that meet the back of a single-sided surface stop there only if they stop at no other surface at
-/// its place: light meets the faces of a leaf that the eye sees. Surfaces of one part that face the
-/// same side count once: where a ray meets the edge between two triangles it hits both.
+/// within; so the rest of a ray does not find these surfaces. Paths that meet the back of a
+/// single-sided surface stop there only if they stop at no other surface at its place: light meets
+/// the faces of a leaf that the eye sees. Surfaces of one part that face the same side count once:
+/// where a ray meets the edge between two triangles it hits both.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-/// The cheapest split of each axis, with the axes in lanes; shared by binned_split.cpp and
-/// swept_split.cpp.
+/// The cheapest split of each axis, with the axes in lanes; shared by bins and sweeps
+/// (split_kernels.cpp).
 
 #include <cstdint>
 #include <cstring>
@@ -31,25 +31,6 @@ struct SideCost {
     [[nodiscard]] float operator()(const Box4& box, const KindCounts& count) const {
         return box.weight() * blocks_cost(count, kinds);
     }
-};
-
-/// A box for each axis. A lane stands for an axis; the fourth one repeats the third.
-struct AxisBoxes {
-    Box4 of[3];
-
-    /// As Box4::weight; an empty box has the weight of a point.
-    [[nodiscard]] Float4 weights() const {
-        const Float4 a = size(of[0]), b = size(of[1]), c = size(of[2]);
-        const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-        const Float4 high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-        const Float4 x = __builtin_shufflevector(low, c, 0, 1, 4, 4);
-        const Float4 y = __builtin_shufflevector(low, c, 2, 3, 5, 5);
-        const Float4 z = __builtin_shufflevector(high, c, 0, 1, 6, 6);
-        return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
-    }
-
-  private:
-    static Float4 size(const Box4& box) { return greater(box.hi - box.lo, Float4{}); }
 };
 
 /// `mask` ? a : b, lane by lane; a mask has all bits of a lane or none.

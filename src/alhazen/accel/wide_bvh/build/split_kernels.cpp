@@ -98,14 +98,14 @@ HWY_INLINE Box4 box_of_sides(const Sides& sides) {
     return box;
 }
 
-/// A box for each axis, as AxisBoxes.
+/// A box for each axis. A lane of the weights stands for an axis; the fourth one repeats the third.
 struct AxisSides {
     Sides of[3];
 
     HWY_INLINE AxisSides() {
         for (Sides& sides : of) sides.clear();
     }
-    /// As AxisBoxes::weights.
+    /// As Box4::weight; an empty box has the weight of a point.
     [[nodiscard]] HWY_INLINE Float4 weights() const {
         const Float4 a = extent(of[0]), b = extent(of[1]), c = extent(of[2]);
         const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
