@@ -85,6 +85,8 @@ Scene compile_without_geometry(const SceneDescription& description) {
     scene.all_opaque =
         std::all_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });
+    scene.may_be_passed = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                      [](const Material& m) { return m.may_be_passed(); });
     if (!scene.all_opaque && scene.conventions.shading.tints_by_distance()) {
         scene.closed_parts = closed_parts_of(description, scene.materials);
     }

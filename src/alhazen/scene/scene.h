@@ -54,6 +54,7 @@ struct Scene {
     RenderConventions conventions;
     Rgb background;
     bool all_opaque = false;      ///< no material lets light through
+    bool may_be_passed = false;   ///< rays may pass points of some material's surfaces
     bool has_scattering = false;  ///< some material scatters light inside volumes
     bool has_masks = false;       ///< some part is not visible to all rays
     /// Some part is visible to some kinds of rays of light transport (kConnectingRays included),
@@ -83,6 +84,12 @@ struct Scene {
             }
         }
         return materials[static_cast<std::size_t>(own)];
+    }
+    /// True if a shadow ray that meets any surface is blocked.
+    [[nodiscard]] bool all_block_light() const {
+        return all_opaque ||
+               (conventions.shading.shadow_tint == ShadingConventions::ShadowTint::Opaque &&
+                !may_be_passed);
     }
     /// See `closed_parts`.
     [[nodiscard]] bool is_closed(std::uint32_t part) const {

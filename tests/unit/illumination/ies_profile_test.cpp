@@ -130,6 +130,34 @@ TEST(IesProfile, TheLineOfTheTiltMayHaveBlanks) {
     EXPECT_EQ(read("TILTED LAMP = 5\nTILT=lamp.tlt").ignored_tilt(), "lamp.tlt");
 }
 
+TEST(IesProfile, FaultsNameTheirLine) {
+    const auto line_of = [](const std::string& text) {
+        try {
+            (void)IesProfile(text, "lamp.ies");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string head = "IESNA91\nTILT=NONE\n";
+    EXPECT_EQ(line_of("IESNA91\n").find("lamp.ies:1: "), 0u);
+    EXPECT_EQ(line_of(head + "1 1 x\n").find("lamp.ies:3: "), 0u);
+    EXPECT_EQ(line_of(head + "1 1 1\n2 1 1 2 0 0 0 1 1 1\n\n0 90\n0 0\n").find("lamp.ies:8: "), 0u);
+    EXPECT_EQ(line_of(head + "1 1 1 2 1 1 2 0 0 0 1 1 1\n90 0").find("lamp.ies:4: "), 0u);
+}
+
+TEST(IesProfile, TellsOfTextBehindTheLastValue) {
+    const auto read = [](const std::string& rest) {
+        return IesProfile("IESNA91\nTILT=NONE\n1 1 1 2 1 1 2 0 0 0 1 1 1\n0 90\n0\n80 80" + rest,
+                          "lamp.ies");
+    };
+    EXPECT_EQ(read("").line_of_surplus(), 0);
+    EXPECT_EQ(read(" \r\n\n").line_of_surplus(), 0);
+    EXPECT_EQ(read("\n\x1a").line_of_surplus(), 0);
+    EXPECT_EQ(read(" 70").line_of_surplus(), 6);
+    EXPECT_EQ(read("\n\n70 70\n").line_of_surplus(), 8);
+}
+
 TEST(IesProfile, WhatIsWrongIsSaid) {
     const auto message = [](const std::string& text) {
         try {

@@ -104,6 +104,26 @@ TEST(Alpha, ShadowsAreAsThickAsTheSurface) {
     expect_near(lit_behind(wall(1), tinted), {1, 0.75, 0.5});
 }
 
+TEST(Alpha, ShadowsWithoutTintAreCutOutToo) {
+    const auto opaque = [](SceneDescription& d) {
+        d.conventions.shading.shadow_tint = ShadingConventions::ShadowTint::Opaque;
+    };
+    Material half = see_through({0, 0, 0}, AlphaMode::Blend, 0.5);
+    half.transmissive.color = {1, 0.5, 0};
+    expect_near(lit_behind(wall(1), half, opaque), {0.5, 0.5, 0.5});
+    Material mask = see_through({0, 0, 0}, AlphaMode::Mask, 0.25);
+    expect_near(lit_behind(wall(1), mask, opaque), {1, 1, 1});
+    mask.alpha.value = 0.75;
+    expect_near(lit_behind(wall(1), mask, opaque), {0, 0, 0});
+    Material front_only = glowing({0, 0, 0});
+    front_only.double_sided = false;
+    expect_near(lit_behind(turned_wall(1), front_only, opaque), {1, 1, 1});
+    expect_near(lit_behind(wall(1), front_only, opaque), {0, 0, 0});
+    Material glass = glowing({0, 0, 0});
+    glass.transmissive.color = {1, 1, 1};
+    expect_near(lit_behind(wall(1), glass, opaque), {0, 0, 0});
+}
+
 TEST(SingleSided, TheBackIsNotSeenAndLightPassesItFromThere) {
     Material front_only = glowing({1, 0, 0});
     front_only.double_sided = false;

@@ -15,10 +15,6 @@ namespace alhazen {
 
 namespace {
 
-bool passes_cones(const Material& material) {
-    return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
-}
-
 /// The scale of a similarity transform; 0 for others.
 double similarity_of(const Mat3& m) {
     const double a = length(m.x_axis), b = length(m.y_axis), c = length(m.z_axis);
@@ -118,7 +114,7 @@ class ConeGatherer {
         source.instance = placed.instance;
         source.visible_to = placed.visible_to;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
-            source.may_pass = passes_cones(material_of(part.material));
+            source.may_pass = material_of(part.material).may_be_passed();
             auto prepared = std::make_shared<AnyShape>(*shape);
             add_shape(std::move(prepared), part, std::move(source));
         } else {
@@ -138,9 +134,9 @@ class ConeGatherer {
         source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
         source.mesh.material = source.material;
         const std::vector<std::uint32_t>& own = mesh->vertex_materials;
-        source.may_pass = own.empty() ? passes_cones(material_of(source.material))
+        source.may_pass = own.empty() ? material_of(source.material).may_be_passed()
                                       : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
-                                            return passes_cones(material_of(MaterialId{id}));
+                                            return material_of(MaterialId{id}).may_be_passed();
                                         });
         const MeshFacts& facts = facts_of(*mesh);
         source.closed = facts.closed;

@@ -35,7 +35,11 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
     const bool by_distance = !material.physical && !material.transmissive.is_black() &&
                              conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
     Crossing result;
-    if (!by_distance) result.surface = material.transmissive;
+    if (conventions.shadow_tint == ShadingConventions::ShadowTint::Opaque) {
+        result.surface = {};
+    } else if (!by_distance) {
+        result.surface = material.transmissive;
+    }
     if (medium.physical && medium.thin) return result;
     if (by_distance && leaving && (closed || volumes.empty())) {
         result.surface = power(medium.transmissive, length);

@@ -26,10 +26,8 @@ bool glints(const Light& light) {
 }  // namespace
 
 bool DirectLight::covers(const Scene& scene) {
-    using ShadowTint = ShadingConventions::ShadowTint;
-    const ShadowTint tint = scene.conventions.shading.shadow_tint;
-    return !scene.has_motion && tint != ShadowTint::None &&
-           (scene.all_opaque || tint == ShadowTint::Opaque);
+    return !scene.has_motion && scene.all_block_light() &&
+           scene.conventions.shading.shadow_tint != ShadingConventions::ShadowTint::None;
 }
 
 DirectLight::DirectLight(const Scene& scene, RayCounters& counters, TraversalStats* stats)

@@ -30,10 +30,6 @@ std::array<Vec3, 2> plane_axes(const Vec3& normal) {
     return {a, cross(normal, a)};
 }
 
-bool passes(const Material& material) {
-    return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
-}
-
 class ScanGatherer {
   public:
     ScanGatherer(const SceneDescription& description, const Scene& scene, const Vec3& eye)
@@ -60,7 +56,8 @@ class ScanGatherer {
         source.part = placed.number;
         source.instance = placed.instance;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
-            source.may_pass = passes(scene_.materials[static_cast<std::size_t>(part.material)]);
+            source.may_pass =
+                scene_.materials[static_cast<std::size_t>(part.material)].may_be_passed();
             add_shape(*shape, part, std::move(source));
         } else {
             source.mesh =
@@ -73,10 +70,11 @@ class ScanGatherer {
         const TriangleMesh& mesh = *source.mesh;
         const std::vector<std::uint32_t>& own = mesh.vertex_materials;
         if (own.empty()) {
-            source.may_pass = passes(scene_.materials[static_cast<std::size_t>(source.material)]);
+            source.may_pass =
+                scene_.materials[static_cast<std::size_t>(source.material)].may_be_passed();
         }
         source.may_pass = source.may_pass || std::any_of(own.begin(), own.end(), [&](auto id) {
-                              return passes(scene_.materials[id]);
+                              return scene_.materials[id].may_be_passed();
                           });
         const auto index = static_cast<std::uint32_t>(result_.sources.size());
         for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {

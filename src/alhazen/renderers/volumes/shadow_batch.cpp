@@ -25,7 +25,7 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
-      opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
+      opaque_(scene.all_block_light()),
       constant_(scene),
       rays_(std::make_unique<Ray[]>(kMostRays)),
       waiting_(std::make_unique<Waiting[]>(kMostRays)),
@@ -247,8 +247,9 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         } else {
             together_ = optics_->faces_at(ray, crossing, path.time);
         }
-        const auto [through, behind] =
+        auto [through, behind] =
             optics_->cross(surface, material, ray.direction, medium, together_);
+        if (scene_.conventions.shading.shadow_tint == ShadowTint::Opaque) through = {};
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *
                transmittance(optics_->absorption(medium), crossing.t - last);

@@ -19,18 +19,18 @@ class IesReader {
     IesReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
     [[noreturn]] void fail(const std::string& message) const {
-        throw Error(ErrorKind::Scene, "IES profile: " + message, {name_, line_, 0});
+        throw Error(ErrorKind::Scene, "IES profile: " + message, {name_, last_read_, 0});
     }
     [[nodiscard]] bool at_end() const { return rest_.empty(); }
     std::string_view line() {
         const std::size_t end = rest_.find('\n');
         std::string_view text = rest_.substr(0, end);
         rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        ++line_;
+        last_read_ = line_++;
         while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
         return text;
     }
-    double number(const char* what) {
+    void skip_blanks() {
         const auto blank = [](char c) {
             return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
         };
@@ -38,6 +38,15 @@ class IesReader {
             if (rest_.front() == '\n') ++line_;
             rest_.remove_prefix(1);
         }
+        last_read_ = line_;
+    }
+    /// The line of what follows but blanks; 0: nothing does. A control-Z ends the file.
+    int line_of_rest() {
+        skip_blanks();
+        return rest_.empty() || rest_.front() == '\x1a' ? 0 : line_;
+    }
+    double number(const char* what) {
+        skip_blanks();
         if (rest_.starts_with('+')) rest_.remove_prefix(1);
         double value = 0.0;
         const auto [end, status] =
@@ -69,7 +78,8 @@ class IesReader {
   private:
     std::string_view rest_;
     const std::string& name_;
-    int line_ = 0;
+    int line_ = 1;       ///< of `rest_`
+    int last_read_ = 1;  ///< line of what was read last
 };
 
 /// Position of an angle in a list: the index below, and the fraction of the interval to the next.
@@ -234,6 +244,7 @@ IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(t
         candela_.push_back(value);
         largest_ = std::max(largest_, value);
     }
+    line_of_surplus_ = reader.line_of_rest();
 }
 
 double IesProfile::candela(double vertical, double horizontal) const {

@@ -40,6 +40,8 @@ class IesProfile {
     /// "INCLUDE" or a file name: what the file gives of the lamp's dependence on the luminaire's
     /// tilt, which is not applied; empty if nothing, or factors of 1.
     [[nodiscard]] const std::string& ignored_tilt() const { return ignored_tilt_; }
+    /// The line, from 1, of text behind the last value, which is not read; 0: there is none.
+    [[nodiscard]] int line_of_surplus() const { return line_of_surplus_; }
     /// The text of the file.
     [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -52,6 +54,7 @@ class IesProfile {
     std::vector<double> verticals_, horizontals_;  ///< radians, ascending
     std::vector<double> candela_;                  ///< [horizontal][vertical]
     double largest_ = 0;
+    int line_of_surplus_ = 0;
 };
 
 /// The factor on the light's colour along a unit direction from the light; 1 without a profile.

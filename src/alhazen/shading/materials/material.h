@@ -171,6 +171,11 @@ struct Material {
         return metallic_roughness ? metallic_roughness->transmission.value == 0.0
                                   : is_black(transmissive);
     }
+    /// True if rays may pass points of the surface: it is cut out, blended or seen from its front
+    /// alone.
+    [[nodiscard]] bool may_be_passed() const {
+        return alpha_mode != AlphaMode::Opaque || !double_sided;
+    }
 };
 
 /// Inputs of `evaluate` at a hit.

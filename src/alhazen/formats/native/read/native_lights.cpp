@@ -75,6 +75,13 @@ void read_profile(BlockReader& reader, NativeContext& context, LightProfile& pro
                 "IES profile \"" + printable(profile.file) + "\": TILT=" + printable(tilt) +
                     ", the lamp's output by the tilt of the luminaire, is not applied");
         }
+        if (const int line = profile.profile->line_of_surplus(); line != 0) {
+            context.diagnostics.warning(
+                reader.find("profile")->location(),
+                "IES profile \"" + printable(profile.file) + "\": what follows the last candela, " +
+                    "from line " + std::to_string(line) +
+                    ", is ignored; are the counts of angles " + "too small?");
+        }
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("profile"), error.what());
