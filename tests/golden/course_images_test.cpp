@@ -53,8 +53,8 @@ TEST(CourseImages, EverySolutionIsMetInAtLeast9995OfTenThousandPixels) {
         const double pixels = static_cast<double>(d.pixels);
         const double identical = static_cast<double>(d.identical) / pixels;
         const double close = static_cast<double>(d.within_one_step) / pixels;
-        EXPECT_GE(identical, 0.9995) << solution;
-        EXPECT_GE(close, 0.9998) << solution;
+        EXPECT_GE(identical, 0.9999) << solution;
+        EXPECT_GE(close, 0.99999) << solution;
         RecordProperty(solution.stem().string(), std::to_string(100 * identical));
     }
 }

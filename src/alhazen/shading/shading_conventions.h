@@ -62,7 +62,8 @@ struct ShadingConventions {
     bool transmitting_surfaces_reflect = false;
 
     /// If an interpolated normal sends a reflected ray into the surface, or a refracted ray back
-    /// out, the ray of the geometric normal is used.
+    /// out, the ray of the geometric normal is used. False: these rays go on, and rays are
+    /// refracted into or out of the body by the side of the interpolated normal.
     bool correct_interpolated_normals = true;
 
     /// False: rays of this kind are not cast.

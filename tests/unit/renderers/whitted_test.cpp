@@ -283,6 +283,41 @@ TEST(Whitted, AReflectionThatWouldEnterTheSurfaceUsesTheGeometricNormal) {
     expect_near(center(maker.compile()), {0.3, 0.6, 0.9});
 }
 
+/// A triangle across the view whose interpolated normals have this direction.
+TriangleMesh leaning_triangle(const Vec3& normal) {
+    TriangleMesh mesh;
+    mesh.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.normals = {normal, normal, normal};
+    return mesh;
+}
+
+TEST(Whitted, WithoutCorrectionTheInterpolatedNormalDecidesAlone) {
+    for (const bool correct : {true, false}) {
+        SceneMaker mirror;
+        mirror.description().conventions.shading.correct_interpolated_normals = correct;
+        mirror.description().picture.background = Rgb{0.3, 0.6, 0.9};
+        Material m;
+        m.reflective.color = {1, 1, 1};
+        mirror.add(mirror.mesh(leaning_triangle(normalize(Vec3{1, 0, 0.5}))), mirror.material(m));
+        Material glow;
+        glow.emission.color = {1, 0.5, 0.25};
+        mirror.add(Plane{.point = {0, 0, -1}, .normal = {0, 0, 1}}, mirror.material(glow));
+        const Rgb below{1, 0.5, 0.25}, above{0.3, 0.6, 0.9};
+        expect_near(center(mirror.compile()), correct ? above : below);
+
+        // The normal looks away from the eye: the ray is refracted as out of the body, by total
+        // reflection.
+        SceneMaker lens;
+        lens.description().conventions.shading.correct_interpolated_normals = correct;
+        lens.add(lens.mesh(leaning_triangle(normalize(Vec3{1, 0, -0.2}))),
+                 lens.material(glass({1, 1, 1}, 1.5)));
+        RayCounters counters;
+        center(lens.compile(), counters);
+        EXPECT_EQ(counters.total_internal, correct ? 0u : 1u);
+    }
+}
+
 TEST(Whitted, TheSamePixelsComeOutOfAnyTiling) {
     SceneMaker maker;
     Material m = plain(0.5);

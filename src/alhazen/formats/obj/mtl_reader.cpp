@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <unordered_set>
 
+#include "alhazen/formats/text/lexer.h"
 #include "alhazen/formats/text/text_cursor.h"
 
 namespace alhazen {
@@ -141,6 +143,11 @@ class MtlReader {
                 cursor_.skip_blanks();
                 materials_.emplace_back();
                 materials_.back().name = std::string(trimmed(cursor_.rest_of_line()));
+                if (!names_.insert(materials_.back().name).second) {
+                    diagnostics_.warning(start_, "a second material '" +
+                                                     printable(materials_.back().name) +
+                                                     "' of the file is ignored");
+                }
                 materials_.back().location = start_;
             } else if (materials_.empty()) {
                 warn_once(0, "a statement before the first newmtl is ignored");
@@ -226,12 +233,14 @@ class MtlReader {
         if (std::isalpha(static_cast<unsigned char>(cursor_.peek()))) {
             return warn_once(2, "spectral and XYZ colours are not supported and ignored");
         }
+        TextCursor begin = cursor_;
         Rgb value;
         int count = 0;
         while (count < 3 && cursor_.skip_blanks() && cursor_.number(value[count])) ++count;
         if (count == 0) return bad_number();
         // One number is grey; of two, the second also serves as the third.
         for (; count < 3; ++count) value[count] = value[count - 1];
+        if (std::min({value.r, value.g, value.b}) < 0) return unused(begin.rest_of_line());
         color = value;
     }
     void read_number(std::optional<double>& number, double most) {
@@ -240,6 +249,7 @@ class MtlReader {
         if (cursor_.peek() == '-') {
             TextCursor ahead = cursor_;
             if (ahead.word() == "-halo") {
+                warn_once(4, "-halo is ignored: d is the same from all sides");
                 cursor_ = ahead;
                 cursor_.skip_blanks();
             }
@@ -295,7 +305,8 @@ class MtlReader {
     std::vector<MtlMaterial> materials_;
     std::vector<std::string> unused_;  ///< at most one more than are listed
     FileLocation first_unused_;
-    std::array<bool, 4> warned_{};
+    std::unordered_set<std::string> names_;
+    std::array<bool, 5> warned_{};
 };
 
 }  // namespace

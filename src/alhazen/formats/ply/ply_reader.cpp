@@ -279,6 +279,15 @@ class BodyReader {
             diagnostics_.error(whole, "the PLY file has no element vertex");
             return {};
         }
+        if (small_faces_ != 0 && mesh_.triangles.empty()) {
+            std::string rest;
+            if (const std::size_t surplus = end_->surplus_bytes(); surplus != 0) {
+                rest = "; " + std::to_string(surplus) +
+                       " bytes are left: does each line have the values that the header names?";
+            }
+            diagnostics_.error(end_->location(file_), "no face has three vertices or more" + rest);
+            return {};
+        }
         if (small_faces_ != 0) {
             diagnostics_.warning(whole, std::to_string(small_faces_) +
                                             " faces with fewer than three vertices are ignored");

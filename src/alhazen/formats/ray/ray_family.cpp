@@ -77,6 +77,7 @@ Conventions conventions_of(bool dictionary) {
                                            : ShadingConventions::RefractionTint::PerDistance;
     c.shading.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
     c.shading.ambient_inside_times_kt = false;
+    c.shading.correct_interpolated_normals = false;
     c.shading.clamp_attenuation = true;
     c.shading.air_index = 1.0;
     c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;

@@ -22,6 +22,7 @@ void read_vertex_materials(BlockReader& reader, RayMaterials& materials,
                            const RayMaterial& enclosing, TriangleMesh& mesh) {
     const auto list = reader.find("materials");
     if (!list || !reader.values().is_list(*list, "materials")) return;
+    if (list->size() == 0) return;  // as in the programs of the courses
     if (!has_one_per_vertex(*list, "materials", mesh.positions.size(), reader.values())) return;
     for (const TextNode value : *list) {
         RayMaterial material = materials.read(value, enclosing);
@@ -52,8 +53,10 @@ std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
     if (readable) {
         context.count_elements(mesh->positions.size() + mesh->triangles.size(),
                                reader.block().location());
-        if (normals)
+        const bool given = normals && !(normals->is(NodeKind::List) && normals->size() == 0);
+        if (given) {
             read_normals(*normals, "normals", reader.values(), NormalLengths::AsWritten, *mesh);
+        }
         read_vertex_materials(reader, materials, material, *mesh);
     } else {
         reader.ignore("materials");

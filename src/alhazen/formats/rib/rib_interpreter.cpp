@@ -1,7 +1,9 @@
 #include "alhazen/formats/rib/rib_interpreter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "alhazen/formats/core/homogeneous_matrix.h"
@@ -56,6 +58,7 @@ class RibInterpreter {
             Known{"Translate", &RibInterpreter::translate},
             Known{"Rotate", &RibInterpreter::rotate},
             Known{"Scale", &RibInterpreter::scale},
+            Known{"Skew", &RibInterpreter::skew},
             Known{"Identity", &RibInterpreter::identity},
             Known{"Transform", &RibInterpreter::transform},
             Known{"ConcatTransform", &RibInterpreter::transform},
@@ -195,6 +198,28 @@ class RibInterpreter {
         } else {
             concat(Affine::rotate(axis, n[0] * std::numbers::pi / 180.0));
         }
+    }
+    /// Moves points along the second axis so that the first one turns towards it by an angle.
+    void skew() {
+        std::array<double, 7> n{};
+        if (!numbers(n)) return;
+        const Vec3 turned = unit_or({n[1], n[2], n[3]}, {}),
+                   along = unit_or({n[4], n[5], n[6]}, {});
+        const double between = std::atan2(length(cross(turned, along)), dot(turned, along));
+        const double angle = n[0] * std::numbers::pi / 180.0, sine = std::sin(between);
+        if (turned == Vec3{} || along == Vec3{} || !(sine > 1e-9)) {
+            return fail("the axes are zero or parallel");
+        }
+        if (!(angle < between && angle > between - std::numbers::pi)) {
+            return fail(
+                "the angle must be less than that between the axes, and more than 180 "
+                "degrees less than it");
+        }
+        const double share = std::sin(angle) / (std::sin(between - angle) * sine * sine);
+        const Vec3 across = share * (turned - dot(turned, along) * along);
+        concat({{Vec3{1, 0, 0} + across.x * along, Vec3{0, 1, 0} + across.y * along,
+                 Vec3{0, 0, 1} + across.z * along},
+                {}});
     }
     void identity() { state_.transform = {}; }
     /// Reads a matrix for row vectors. Transform replaces the current one within the world.

@@ -42,7 +42,7 @@ class TextCursor {
     [[nodiscard]] std::int64_t line() const { return line_; }
 
     /// Moves to the next nonblank character of this line; false at the end of the line. A backslash
-    /// before the line end continues the line.
+    /// that only blanks separate from the end of the line continues it.
     bool skip_blanks() {
         for (;;) {
             while (next_ != end_ && is_blank(*next_)) ++next_;
@@ -199,8 +199,10 @@ class TextCursor {
         line_start_ = next_;
     }
     bool joins_lines() {
-        if (next_ + 1 == end_ || !is_newline(next_[1])) return false;
-        ++next_;
+        const char* after = next_ + 1;
+        while (after != end_ && is_blank(*after)) ++after;
+        if (after != end_ && !is_newline(*after)) return false;
+        next_ = after;
         step_over_newline();
         return true;
     }

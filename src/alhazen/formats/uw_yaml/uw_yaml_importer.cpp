@@ -14,6 +14,7 @@ Conventions uw_conventions() {
     c.shading.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
     c.shading.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
     c.shading.ambient_inside_times_kt = false;
+    c.shading.correct_interpolated_normals = false;
     c.shading.clamp_attenuation = true;
     c.importing.truncate_material_colors = true;
     c.shading.transmitting_surfaces_reflect = false;

@@ -447,7 +447,8 @@ Rgb ConeTracer::reflected(const Seen& seen, const ShadingPoint& point) {
 bool ConeTracer::refracts(const ShadingPoint& point, const Ray& ray, double& eta,
                           Vec3& direction) const {
     const double air = conventions_.air_index;
-    eta = point.entering ? air / point.material->index : point.material->index / air;
+    eta = refracts_inward(conventions_, point) ? air / point.material->index
+                                               : point.material->index / air;
     if (!refract(ray.direction, point.normal, eta, direction)) return false;
     return !conventions_.correct_interpolated_normals || !(dot(direction, point.geometric) > 0.0) ||
            refract(ray.direction, point.geometric, eta, direction);

@@ -154,6 +154,14 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const
     return !point.entering && is_unseen_from_behind(*point.material);
 }
 
+/// True if a refracted ray goes from air into the body: by the side of the geometric normal, or of
+/// the interpolated one if that is not corrected (ShadingConventions).
+[[nodiscard]] inline bool refracts_inward(const ShadingConventions& conventions,
+                                          const ShadingPoint& point) {
+    if (conventions.correct_interpolated_normals) return point.entering;
+    return dot(point.view, point.surface.shading_normal) > 0.0;
+}
+
 /// As `set_shading_point` with `point.surface` already set, for renderers that find surfaces
 /// without rays.
 void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,

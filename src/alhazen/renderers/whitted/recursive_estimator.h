@@ -429,9 +429,9 @@ class RecursiveEstimator {
                            : eta_by_wave(scene_, point, nm);
         }
         const double air = conventions_.air_index;
-        return point.behind.known ? point.behind.eta
-               : point.entering   ? air / point.material->index
-                                  : point.material->index / air;
+        if (point.behind.known) return point.behind.eta;
+        return refracts_inward(conventions_, point) ? air / point.material->index
+                                                    : point.material->index / air;
     }
     [[nodiscard]] bool disperses(const Seen& seen) const {
         return split_ != nullptr && eta_of(seen, kLineF) != eta_of(seen, kLineC);

@@ -145,6 +145,9 @@ TEST(GltfDocument, UnknownValuesThatLeaveThePictureAreWarnings) {
     const auto later = read_gltf(json("{'asset': {'version': '2.1', 'minVersion': '2.1'}}"));
     EXPECT_TRUE(later.is_good()) << later.findings();
     EXPECT_TRUE(later.says("#/asset/minVersion: a later version is required; read as 2.0"));
+    const auto newer = read_gltf(json("{'asset': {'version': '2.1'}}"));
+    EXPECT_TRUE(newer.is_good()) << newer.findings();
+    EXPECT_TRUE(newer.says("#/asset/version: later than 2.0; read as 2.0")) << newer.findings();
 }
 
 TEST(GltfDocument, DataUrisOfBuffersNameBytes) {

@@ -337,6 +337,21 @@ TEST(ObjScene, WhatALibraryHasThatIsUnknownOrOutOfRangeIsListedOnce) {
     EXPECT_EQ(coated.metallic_roughness->coat.roughness.value, 0.25);
 }
 
+TEST(ObjScene, NegativeColoursHalosAndSecondMaterialsAreToldOf) {
+    Diagnostics found;
+    Material m = material_of("Kd 1.5 -0.2 0.5\n", found);
+    EXPECT_TRUE(mentions(found, "unknown or out of range: 'Kd 1.5 -0.2 0.5'")) << text_of(found);
+    EXPECT_EQ(m.diffuse.color, material_of("").diffuse.color);
+    Diagnostics halo;
+    m = material_of("d -halo 0.6\n", halo);
+    EXPECT_EQ(m.alpha.value, 0.6);
+    EXPECT_TRUE(mentions(halo, "-halo is ignored")) << text_of(halo);
+    Diagnostics twice;
+    m = material_of("Kd 1 0 0\nnewmtl m\nKd 0 1 0\n", twice);
+    EXPECT_EQ(m.diffuse.color, (Rgb{1, 0, 0}));
+    EXPECT_TRUE(mentions(twice, "a.mtl:3:1: warning: a second material 'm'")) << text_of(twice);
+}
+
 TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
     const TemporaryFolder folder;
     write_image(folder.path() / "t.png", Image(2, 2, 3));

@@ -18,8 +18,8 @@ TEST(Obj, AllFormsOfAFaceAreRead) {
     const std::string more = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n";
     for (const char* face :
          {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
-          "f -4 -3 -2 -1", "f -4/-4/-1 -3/-3/-1 3/3/1 4/4/1", "f 1 2 \\\n 3 4", "f 1/ 2/ 3/ 4/",
-          "  f\t1 2 3 4  # a comment"}) {
+          "f -4 -3 -2 -1", "f -4/-4/-1 -3/-3/-1 3/3/1 4/4/1", "f 1 2 \\\n 3 4", "f 1 2 \\ \t\n 3 4",
+          "f 1 2 3 4 \\", "f 1/ 2/ 3/ 4/", "  f\t1 2 3 4  # a comment"}) {
         Diagnostics found;
         const TriangleMesh mesh = mesh_of(kCorners + more + face, "a.obj", found);
         EXPECT_EQ(text_of(found), "") << face;

@@ -139,6 +139,18 @@ TEST(Ply, DataAfterTheLastElementAreAWarning) {
     EXPECT_NE(findings(binary + "1234").find("4 bytes follow"), std::string::npos);
 }
 
+TEST(Ply, LinesOfMoreValuesThanDeclaredThatLeaveNoFaceAreToldOf) {
+    Diagnostics found;
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 9 9\n1 0 0\n0 1 0\n3 0 1 2\n";
+    EXPECT_TRUE(mesh_of(text, "a.ply", found).triangles.empty());
+    EXPECT_TRUE(mentions(found, "a.ply:13:1: error: no face has three vertices or more; "))
+        << text_of(found);
+    EXPECT_TRUE(mentions(found, "does each line have the values that the header names?"));
+}
+
 TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
     for (const char* count : {"4000000000", "123456789", "9223372036854775807"}) {
         std::string huge = kPlySquare;

@@ -136,8 +136,7 @@ TEST(RayImporter, NormalsKeepTheLengthsWithWhichTheyAreInterpolated) {
         "trimesh { points = ((0,0,0),(1,0,0),(0,1,0)); faces = ((0,1,2)); "
         "normals = ((3,0,0),(0,0,1),(0,0,1)); }");
     ASSERT_EQ(i.errors(), 0u) << i.messages();
-    const ShapeSurface surface =
-        i.scene.meshes.at(0).mesh->surface(0, {1, 0, 0.5, 0});
+    const ShapeSurface surface = i.scene.meshes.at(0).mesh->surface(0, {1, 0, 0.5, 0});
     expect_near(surface.shading_normal, Vec3{3, 0, 1} / std::sqrt(10.0));
 }
 
@@ -171,6 +170,15 @@ TEST(RayImporter, ReportsEveryBadIndexOfAMesh) {
         1u);
     EXPECT_EQ(import_ray(std::string("trimesh { ") + kSquareMesh + "materials = ({}); }").errors(),
               1u);
+}
+
+TEST(RayObjects, EmptyListsOfNormalsAndMaterialsAreAsNone) {
+    const Imported i =
+        import_ray(std::string("trimesh { ") + kSquareMesh + "normals = (); materials = (); }");
+    EXPECT_EQ(i.messages(), "");
+    ASSERT_EQ(i.scene.meshes.size(), 1u);
+    EXPECT_TRUE(i.scene.meshes[0].mesh->normals.empty());
+    EXPECT_TRUE(i.scene.meshes[0].mesh->vertex_materials.empty());
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(RayImporter, TellsTheFamiliesApart) {
                   SamplingConventions::PixelSample::LowerLeftCorner);
         EXPECT_EQ(i->scene.conventions.shading.highlight, ShadingConventions::Highlight::Phong);
         EXPECT_TRUE(i->scene.conventions.film.linear_output);
+        EXPECT_FALSE(i->scene.conventions.shading.correct_interpolated_normals);
     }
 }
 

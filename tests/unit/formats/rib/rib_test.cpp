@@ -268,6 +268,34 @@ TEST(Rib, InstancesInheritTheColourThatTheObjectDoesNotSet) {
     EXPECT_EQ(color_of(blue.parts.at(0)), (Rgb{0, 0, 1}));
 }
 
+TEST(Rib, SkewTurnsTheFirstAxisTowardsTheSecond) {
+    const auto skewed = [](const std::string& numbers, const Vec3& p) {
+        const auto read = import_rib("WorldBegin Skew " + numbers + " " + bilinear(0) + "WorldEnd");
+        EXPECT_EQ(read.messages(), "");
+        return read.parts().at(0).object_from_part.point(p);
+    };
+    const auto expect = [](const Vec3& found, const Vec3& wanted) {
+        EXPECT_LT(length(found - wanted), 1e-12);
+    };
+    expect(skewed("45 0 1 0 1 0 0", {0, 2, 3}), {2, 2, 3});
+    expect(skewed("[-45 0 3 0 0.5 0 0]", {1, 2, 3}), {-1, 2, 3});
+    // Axes at 60 degrees: y turns by 30 degrees, and points move along the other alone.
+    const double c = std::sqrt(0.75);
+    const Vec3 along{c, 0.5, 0}, turned{0.5, c, 0};
+    const Vec3 image = skewed("30 0 1 0 0.86602540378443864676 0.5 0", {0, 1, 0});
+    expect(image / length(image), turned);
+    EXPECT_NEAR(length(cross(image - Vec3{0, 1, 0}, along)), 0, 1e-12);
+    expect(skewed("30 0 1 0 0.86602540378443864676 0.5 0", along), along);
+    expect(skewed("30 0 1 0 0.86602540378443864676 0.5 0", {0, 0, 5}), {0, 0, 5});
+    for (const char* bad :
+         {"90 0 1 0 1 0 0", "-90 0 1 0 1 0 0", "10 0 1 0 0 -2 0", "10 0 0 0 1 0 0"}) {
+        EXPECT_EQ(import_rib("WorldBegin Skew " + std::string(bad) + " " + bilinear(0) + "WorldEnd")
+                      .errors(),
+                  1u)
+            << bad;
+    }
+}
+
 TEST(Rib, IdentityBeforeTheWorldIsTheCamerasOwn) {
     const auto read = import_rib(
         "Projection \"perspective\" Translate 0 0 5 Identity Translate 0 0 3 WorldBegin\n" +

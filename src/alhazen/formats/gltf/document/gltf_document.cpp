@@ -158,6 +158,8 @@ void read_asset(const JsonObject& root) {
             asset.error("minVersion", "greater than version");
         } else if (minimum && *minimum > std::array<int, 2>{2, 0}) {
             asset.warning("minVersion", "a later version is required; read as 2.0");
+        } else if (version && *version > std::array<int, 2>{2, 0} && (*version)[0] == 2) {
+            asset.warning("version", "later than 2.0; read as 2.0");
         }
     });
 }
