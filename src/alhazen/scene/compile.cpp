@@ -12,9 +12,12 @@ namespace {
 
 class ClosedParts {
   public:
-    ClosedParts(const SceneDescription& description, const std::vector<Material>& materials)
+    /// `opaque_too`: also opaque surfaces that enclose a volume.
+    ClosedParts(const SceneDescription& description, const std::vector<Material>& materials,
+                bool opaque_too)
         : d_(description),
           materials_(materials),
+          opaque_too_(opaque_too),
           in_solid_(description.objects.size()),
           meshes_(description.meshes.size()) {
         for (std::size_t k = 0; k < d_.objects.size(); ++k) {
@@ -43,9 +46,10 @@ class ClosedParts {
         }
     }
     [[nodiscard]] bool passes(MaterialId id) const {
-        return opacity_of(materials_[static_cast<std::size_t>(id)]) != Opacity::Opaque;
+        return opaque_too_ ||
+               opacity_of(materials_[static_cast<std::size_t>(id)]) != Opacity::Opaque;
     }
-    /// True if the part's surface encloses a volume and lets light through.
+    /// True if the part's surface encloses a volume, and lets light through where that counts.
     [[nodiscard]] bool encloses(const Part& part) {
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             return passes(part.material) &&
@@ -68,6 +72,7 @@ class ClosedParts {
 
     const SceneDescription& d_;
     const std::vector<Material>& materials_;
+    const bool opaque_too_;
     std::vector<bool> in_solid_;               ///< [object] it, or one that uses it, is a solid
     std::vector<std::optional<bool>> meshes_;  ///< [mesh] closed and facing outward
 };
@@ -75,8 +80,8 @@ class ClosedParts {
 }  // namespace
 
 std::vector<std::uint8_t> closed_parts_of(const SceneDescription& description,
-                                          const std::vector<Material>& materials) {
-    return ClosedParts(description, materials).find();
+                                          const std::vector<Material>& materials, bool opaque_too) {
+    return ClosedParts(description, materials, opaque_too).find();
 }
 
 Scene compile_without_geometry(const SceneDescription& description) {
@@ -87,8 +92,10 @@ Scene compile_without_geometry(const SceneDescription& description) {
                     [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });
     scene.may_be_passed = std::any_of(scene.materials.begin(), scene.materials.end(),
                                       [](const Material& m) { return m.may_be_passed(); });
-    if (!scene.all_opaque && scene.conventions.shading.tints_by_distance()) {
-        scene.closed_parts = closed_parts_of(description, scene.materials);
+    const ShadingConventions& shading = scene.conventions.shading;
+    if (shading.inside_color || (!scene.all_opaque && shading.tints_by_distance())) {
+        scene.closed_parts =
+            closed_parts_of(description, scene.materials, shading.inside_color.has_value());
     }
     scene.has_scattering =
         std::any_of(scene.materials.begin(), scene.materials.end(),

@@ -67,7 +67,8 @@ struct Scene {
     bool has_solid_textures = false;
     /// [material] 1: its appearance depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;
-    /// closed_parts_of; empty unless kt acts by distance (ShadingConventions).
+    /// closed_parts_of; empty unless kt acts by distance, or insides have a colour
+    /// (ShadingConventions).
     std::vector<std::uint8_t> closed_parts;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< name of the accelerator; empty without an aggregate
@@ -98,9 +99,11 @@ struct Scene {
 };
 
 /// [part] 1: part of a solid of constructive geometry, or a surface that lets light through and
-/// encloses a volume, facing outward. Parts are numbered as by PartNumbers.
+/// encloses a volume, facing outward (`opaque_too`: also an opaque one). Parts are numbered as by
+/// PartNumbers.
 [[nodiscard]] std::vector<std::uint8_t> closed_parts_of(const SceneDescription& description,
-                                                        const std::vector<Material>& materials);
+                                                        const std::vector<Material>& materials,
+                                                        bool opaque_too = false);
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";

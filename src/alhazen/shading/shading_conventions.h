@@ -7,6 +7,10 @@
 ///   I = ke + sum_j [ kd ILa_j + Ashadow Adist IL_j Bj (kd (N.L) + ks (N.H)+^ns) ] + kr I(Q,R) + kt
 ///   I(Q,T).
 
+#include <optional>
+
+#include "alhazen/imaging/image/rgb.h"
+
 namespace alhazen {
 
 /// Laws of optics that replace the shares and tints of the equation, for renderers that trace its
@@ -54,6 +58,9 @@ struct ShadingConventions {
     bool ambient_inside_times_kt = true;
     /// Ambient light comes from the origin of the ray: it is multiplied by the cosine of the view.
     bool ambient_from_eye = false;
+
+    /// Radiance of eye rays that start inside a solid; none: they show its surface from inside.
+    std::optional<Rgb> inside_color;
 
     /// Limits a point light's attenuation 1 / (c + l d + q d^2) to 1.
     bool clamp_attenuation = true;

@@ -318,6 +318,31 @@ TEST(Whitted, WithoutCorrectionTheInterpolatedNormalDecidesAlone) {
     }
 }
 
+TEST(Whitted, EyeRaysThatStartInsideASolidShowTheColourOfInsides) {
+    const Rgb inside{0.1, 0.2, 0.3}, own{0.5, 0.25, 1};
+    Material glow;
+    glow.emission.color = own;
+    for (const bool set : {false, true}) {
+        const auto shown = [&](const auto& shape) {
+            SceneMaker maker;
+            if (set) maker.description().conventions.shading.inside_color = inside;
+            maker.add(shape, maker.material(glow));
+            return center(maker.compile());
+        };
+        expect_near(shown(Sphere{.radius = 100}), set ? inside : own);
+        expect_near(shown(Sphere{.radius = 1}), own);          // in front of the eye
+        expect_near(shown(Plane{.normal = {0, 0, -1}}), own);  // not closed
+    }
+    // Seen in a mirror, the same solid has its own colour.
+    SceneMaker maker;
+    maker.description().conventions.shading.inside_color = inside;
+    Material mirror;
+    mirror.reflective.color = {1, 1, 1};
+    maker.add(Plane{.point = {0, 0, -1}, .normal = {0, 0, 1}}, maker.material(mirror));
+    maker.add(Sphere{.center = {0, 0, 50}, .radius = 10}, maker.material(glow));
+    expect_near(center(maker.compile()), own);
+}
+
 TEST(Whitted, TheSamePixelsComeOutOfAnyTiling) {
     SceneMaker maker;
     Material m = plain(0.5);

@@ -12,11 +12,17 @@ namespace alhazen {
 
 namespace {
 
+/// What `rt` shows of a region that an eye ray starts in: 18 % grey, less by 0.8 for each of the
+/// six times that the ray is started anew behind the way through the region and is in it again.
+/// Source: `moss`, all 2968 pixels whose rays start inside its platform are 12 of 255.
+constexpr double kInsideGrey = 0.18 * 0.8 * 0.8 * 0.8 * 0.8 * 0.8 * 0.8;
+
 /// The conventions of BRL-CAD's pictures.
 Conventions brlcad_conventions() {
     Conventions c;
     c.shading.highlight = ShadingConventions::Highlight::Schlick;
     c.shading.ambient_from_eye = true;
+    c.shading.inside_color = Rgb{kInsideGrey, kInsideGrey, kInsideGrey};
     c.shading.air_index = 1.0;
     c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
     c.film.round_output = true;

@@ -277,6 +277,12 @@ class RecursiveEstimator {
     /// rays, or by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
+        if (seen.depth == 0 && conventions_.inside_color && !point.entering &&
+            scene_.is_closed(point.surface.part)) {
+            met.lit = false;
+            met.own = *conventions_.inside_color;
+            return;
+        }
         met.lit = !point.material->unlit;
         if (!met.lit) {
             met.own = point.material->emission;

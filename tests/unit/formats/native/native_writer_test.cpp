@@ -110,6 +110,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.shading.ambient_inside_times_kt = even;
         c.shading.ambient_from_eye = even;
         c.shading.optics = {even, i > 1};
+        if (even) c.shading.inside_color = Rgb{0.1, 0.2, 0.3};
         c.shading.clamp_attenuation = even;
         c.importing.truncate_material_colors = even;
         c.shading.transmitting_surfaces_reflect = even;

@@ -127,6 +127,7 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read_word("ambient_factor", native_words<S::AmbientFactor>(), c.shading.ambient_factor);
     reader.read("ambient_inside_times_kt", c.shading.ambient_inside_times_kt);
     reader.read("ambient_from_eye", c.shading.ambient_from_eye);
+    if (Rgb inside; reader.read("inside_color", inside)) c.shading.inside_color = inside;
     reader.read("fresnel", c.shading.optics.fresnel);
     reader.read("beer", c.shading.optics.beer);
     reader.read("clamp_attenuation", c.shading.clamp_attenuation);

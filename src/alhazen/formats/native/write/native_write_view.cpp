@@ -246,6 +246,7 @@ void write_native_conventions(NativeWriteContext& context) {
                      usual.shading.ambient_inside_times_kt);
     block.add_unless("ambient_from_eye", c.shading.ambient_from_eye,
                      usual.shading.ambient_from_eye);
+    if (c.shading.inside_color) block.add("inside_color", native_value(*c.shading.inside_color));
     block.add_unless("fresnel", c.shading.optics.fresnel, usual.shading.optics.fresnel);
     block.add_unless("beer", c.shading.optics.beer, usual.shading.optics.beer);
     block.add_unless("clamp_attenuation", c.shading.clamp_attenuation,
