@@ -16,12 +16,6 @@ namespace {
 /// Bytes that may be read behind the stream.
 constexpr std::size_t kReadAhead = 8;
 
-std::uint64_t reversed(std::uint64_t bytes) {
-    std::uint64_t result = 0;
-    for (unsigned i = 0; i < 8; ++i) result = result << 8 | (bytes >> (8 * i) & 255);
-    return result;
-}
-
 class BitReader {
   public:
     explicit BitReader(const std::uint8_t* bytes) : bytes_(bytes) {}
@@ -29,9 +23,13 @@ class BitReader {
     [[nodiscard]] std::size_t position() const { return position_; }
     /// The next 57 bits, the first one lowest, and some more.
     [[nodiscard]] std::uint64_t next() const {
+        const std::uint8_t* const from = bytes_ + position_ / 8;
         std::uint64_t bits = 0;
-        std::memcpy(&bits, bytes_ + position_ / 8, 8);
-        if constexpr (std::endian::native == std::endian::big) bits = reversed(bits);
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(&bits, from, 8);
+        } else {
+            for (unsigned i = 0; i < 8; ++i) bits |= std::uint64_t{from[i]} << (8 * i);
+        }
         return bits >> (position_ % 8);
     }
     void skip(std::size_t bits) { position_ += bits; }

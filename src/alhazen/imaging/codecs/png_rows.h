@@ -3,10 +3,9 @@
 ///
 /// Source: ISO/IEC 15948 (PNG), clauses 9 and 10; RFC 1950 (zlib).
 /// Differs: large pictures are compressed in pieces of whole rows, some 256 kB each, which do not
-/// refer to the bytes before them: files are larger by up to 1 %, nearly empty ones by some 30 bytes
-/// a piece.
-/// Conventions: the pieces follow from the sizes of the picture alone, so the bytes are the same
-/// with any number of threads.
+/// refer to the bytes before them: files are larger by up to 1 %, nearly empty ones by some 30
+/// bytes a piece. Conventions: the pieces follow from the sizes of the picture alone, so the bytes
+/// are the same with any number of threads.
 
 #include <cstdint>
 #include <vector>
