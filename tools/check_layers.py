@@ -27,7 +27,7 @@ MODULES = {
     "parallel": ["base"],
     "sampling": ["math"],
     "geometry": ["math"],
-    "imaging": ["math", "simd"],
+    "imaging": ["math", "simd", "parallel"],
     "shading": ["sampling", "imaging", "geometry"],
     "cameras": ["geometry", "simd"],
     "shapes": ["geometry", "simd"],

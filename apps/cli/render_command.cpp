@@ -9,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/cameras/projection.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/reports/antialias_report.h"
 #include "alhazen/renderers/core/reports/beam_report.h"
@@ -198,7 +199,8 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
 
 /// Prints the results of the stop rules.
 void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
-    if (!options.sampling || !options.sampling->has_rounds() || report.finished_rounds() == 0) return;
+    if (!options.sampling || !options.sampling->has_rounds() || report.finished_rounds() == 0)
+        return;
     const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
     tell("{:.1f} samples per pixel, at most {}{}\n", mean, report.most_samples,
          report.out_of_time ? "; out of time" : "");
@@ -267,7 +269,9 @@ int run(const RenderArguments& args) {
         return kStopped;
     }
     const Stopwatch write_time;
-    write_pictures(args, options, loaded, result, run_time.seconds());
+    ThreadLimit(options.threads).run([&] {
+        write_pictures(args, options, loaded, result, run_time.seconds());
+    });
     const double write_seconds = write_time.seconds();
     if (!args.stats.empty()) {
         write_report(

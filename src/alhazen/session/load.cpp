@@ -44,7 +44,10 @@ void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
 
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
-    SceneDescription description = import_scene(path, options.import, diagnostics);
+    SceneDescription description;
+    ThreadLimit(options.threads).run([&] {
+        description = import_scene(path, options.import, diagnostics);
+    });
     if (options.shutter) {
         open_shutter_of(description, options.import, *options.shutter, diagnostics);
     }

@@ -1,5 +1,7 @@
 #include "alhazen/session/picture.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,15 +39,21 @@ CodeRows picture_rows(const Film& film, const FilmConventions& conventions,
         };
         return rows;
     }
-    rows.fill = [=, map = ToneMapper(options.tone), bits = options.bits,
-                 mapped = std::vector<double>(3 * std::size_t(width))](
-                    int y, std::span<std::uint16_t> codes) mutable {
+    rows.fill = [=, map = ToneMapper(options.tone), bits = options.bits](
+                    int y, std::span<std::uint16_t> codes) {
+        constexpr std::size_t kAtOnce = 3 * 128;
+        std::array<double, kAtOnce> mapped;
         const double* from = row(y);
-        for (std::size_t i = 0; i < mapped.size(); i += 3) {
-            const Rgb shown = map({from[i], from[i + 1], from[i + 2]});
-            mapped[i] = shown.r, mapped[i + 1] = shown.g, mapped[i + 2] = shown.b;
+        while (!codes.empty()) {
+            const std::size_t count = std::min(codes.size(), kAtOnce);
+            for (std::size_t i = 0; i < count; i += 3) {
+                const Rgb shown = map({from[i], from[i + 1], from[i + 2]});
+                mapped[i] = shown.r, mapped[i + 1] = shown.g, mapped[i + 2] = shown.b;
+            }
+            encode(mapped.data(), encoding, bits, codes.first(count));
+            codes = codes.subspan(count);
+            from += count;
         }
-        encode(mapped.data(), encoding, bits, codes);
     };
     return rows;
 }

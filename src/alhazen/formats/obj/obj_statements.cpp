@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <span>
 #include <unordered_map>
 
+#include "alhazen/formats/obj/obj_pieces.h"
 #include "alhazen/formats/text/text_cursor.h"
 #include "alhazen/imaging/image/encoding.h"
+#include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
 
@@ -57,10 +59,13 @@ class StatementReader {
               }) {}
 
     ObjStatements read() {
-        reserve();
-        for (; !cursor_.at_end() && errors_ < kMaxObjErrors; cursor_.skip_line()) {
-            if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
-            read_statement();
+        // Bounds the memory for lines that were read ahead.
+        constexpr std::size_t kAtOnce = 128;
+        const std::vector<std::string_view> pieces = obj_pieces(bytes_);
+        reserve(count_obj_lines(pieces));
+        const std::span<const std::string_view> all(pieces);
+        for (std::size_t i = 0; i < all.size(); i += kAtOnce) {
+            read_pieces(all.subspan(i, std::min(kAtOnce, all.size() - i)));
         }
         free_form_.finish(cursor_);
         if (errors_ == kMaxObjErrors) error("too many errors; the rest of the file is not read");
@@ -72,30 +77,59 @@ class StatementReader {
     }
 
   private:
-    /// Counts the lines and reserves memory: growing arrays would take twice as much. The
-    /// reservation is bounded by the bytes that the numbers require.
-    void reserve() {
-        std::size_t positions = 0, uvs = 0, normals = 0, faces = 0;
-        const char* at = bytes_.data();
-        const char* const end = at + bytes_.size();
-        while (at != end) {
-            if (*at == 'v' && end - at > 1) {
-                ++(at[1] == 't' ? uvs : at[1] == 'n' ? normals : positions);
-            } else if (*at == 'f') {
-                ++faces;
+    void read_pieces(std::span<const std::string_view> pieces) {
+        std::vector<PlainObjLines> plain(pieces.size());
+        parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) plain[i] = read_plain_obj_lines(pieces[i]);
+        });
+        for (std::size_t i = 0; i < pieces.size() && errors_ < kMaxObjErrors; ++i) {
+            const std::int64_t line = cursor_.line();
+            if (add_plain(plain[i])) {
+                cursor_ = TextCursor(pieces[i].substr(pieces[i].size()), line + plain[i].lines);
+            } else {
+                cursor_ = TextCursor(pieces[i], line);
+                read_lines();
             }
-            const void* newline = std::memchr(at, '\n', std::size_t(end - at));
-            if (newline == nullptr) break;
-            at = static_cast<const char*>(newline) + 1;
+            plain[i] = {};
         }
+    }
+    void read_lines() {
+        for (; !cursor_.at_end() && errors_ < kMaxObjErrors; cursor_.skip_line()) {
+            if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
+            read_statement();
+        }
+    }
+    /// False, with nothing added, if the lines are not plain or there is no room for them.
+    bool add_plain(const PlainObjLines& lines) {
+        const std::uint64_t most = std::min(options_.max_elements, std::uint64_t(kMaxIndex));
+        if (lines.lines == 0 || result_.positions.size() + lines.positions.size() > most ||
+            result_.corners.size() + lines.corners.size() > most) {
+            return false;
+        }
+        result_.positions.insert(result_.positions.end(), lines.positions.begin(),
+                                 lines.positions.end());
+        if (!result_.colors.empty()) result_.colors.resize(result_.positions.size());
+        if (!lines.face_lines.empty()) begin_run();
+        std::size_t end = result_.corners.size();
+        result_.corners.append(lines.corners);
+        for (const std::int64_t line : lines.face_lines) {
+            add_face(end += 3, cursor_.line() + line);
+        }
+        known_ = known_ || !lines.positions.empty() || !lines.face_lines.empty();
+        return true;
+    }
+
+    /// Reserves memory: growing arrays would take twice as much. The reservation is bounded by the
+    /// bytes that the numbers require.
+    void reserve(const ObjLineCounts& lines) {
         const std::size_t most = bytes_.size() / 7 + 1;  // "v 0 0 0"
-        result_.positions.reserve(std::min(positions, most));
-        result_.uvs.reserve(std::min(uvs, most));
-        result_.normals.reserve(std::min(normals, most));
-        result_.faces.reserve(std::min(faces, most));
-        result_.corners.position.reserve(3 * std::min(faces, most));
-        if (uvs != 0) result_.corners.uv.reserve(3 * std::min(faces, most));
-        if (normals != 0) result_.corners.normal.reserve(3 * std::min(faces, most));
+        result_.positions.reserve(std::min(lines.positions, most));
+        result_.uvs.reserve(std::min(lines.uvs, most));
+        result_.normals.reserve(std::min(lines.normals, most));
+        result_.faces.reserve(std::min(lines.faces, most));
+        result_.corners.position.reserve(3 * std::min(lines.faces, most));
+        if (lines.uvs != 0) result_.corners.uv.reserve(3 * std::min(lines.faces, most));
+        if (lines.normals != 0) result_.corners.normal.reserve(3 * std::min(lines.faces, most));
     }
 
     void read_statement() {
@@ -231,9 +265,10 @@ class StatementReader {
         end_face(start);
     }
     /// Adds the face whose corners were read.
-    void end_face(const TextCursor& start) {
-        const std::int64_t line = std::min<std::int64_t>(start.line(), 0xFFFFFFFFll);
-        result_.faces.push_back({std::uint32_t(result_.corners.size()), std::uint32_t(line)});
+    void end_face(const TextCursor& start) { add_face(result_.corners.size(), start.line()); }
+    void add_face(std::size_t end_corner, std::int64_t line) {
+        line = std::min<std::int64_t>(line, 0xFFFFFFFFll);
+        result_.faces.push_back({std::uint32_t(end_corner), std::uint32_t(line)});
     }
     void begin_run() {
         run_.first_face = std::uint32_t(result_.faces.size());
@@ -380,6 +415,12 @@ void ObjCorners::resize(std::size_t size) {
     position.resize(size);
     if (uv.size() > size) uv.resize(size);
     if (normal.size() > size) normal.resize(size);
+}
+
+void ObjCorners::append(const std::vector<std::int32_t>& positions) {
+    position.insert(position.end(), positions.begin(), positions.end());
+    if (!uv.empty()) uv.resize(position.size(), -1);
+    if (!normal.empty()) normal.resize(position.size(), -1);
 }
 
 void ObjCorners::need_normals() {

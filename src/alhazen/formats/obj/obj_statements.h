@@ -33,6 +33,8 @@ class ObjCorners {
         push(normal, corner.normal);
         position.push_back(corner.position);
     }
+    /// Adds corners of positions alone.
+    void append(const std::vector<std::int32_t>& positions);
     void resize(std::size_t size);
     /// Allocates a normal index for every corner.
     void need_normals();

@@ -7,13 +7,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include <libdeflate.h>
 #include <png.h>
 
-#include "alhazen/base/huge_array.h"
 #include "alhazen/imaging/codecs/image_size.h"
-#include "alhazen/imaging/codecs/png_filter.h"
-#include "alhazen/imaging/image/code_lanes.h"
+#include "alhazen/imaging/codecs/png_rows.h"
 
 namespace alhazen {
 
@@ -32,7 +29,7 @@ struct PngState {
 
     png_bytep row = nullptr;
     const CodeRows* rows = nullptr;
-    std::span<const png_byte> data;  ///< the compressed rows that are written
+    std::span<const std::vector<png_byte>> data;  ///< the compressed rows that are written
     png_textp texts = nullptr;
     int text_count = 0;
     int passes = 1;
@@ -216,9 +213,10 @@ void write_header(PngState& state) {
 void write_data(PngState& state) {
     constexpr std::size_t kMost = std::size_t{1} << 30;  // of the bytes of a chunk
     static constexpr png_byte kRows[] = "IDAT", kEnd[] = "IEND";
-    for (std::size_t at = 0; at < state.data.size(); at += kMost) {
-        const auto part = state.data.subspan(at, std::min(kMost, state.data.size() - at));
-        png_write_chunk(state.png, kRows, part.data(), part.size());
+    for (const std::vector<png_byte>& part : state.data) {
+        for (std::size_t at = 0; at < part.size(); at += kMost) {
+            png_write_chunk(state.png, kRows, part.data() + at, std::min(kMost, part.size() - at));
+        }
     }
     png_write_chunk(state.png, kEnd, nullptr, 0);
 }
@@ -253,74 +251,6 @@ void check_format(const CodeRows& rows) {
     if (rows.width <= 0 || rows.height <= 0) cannot_write("the picture is empty");
     if (rows.channels < 1 || rows.channels > 4) cannot_write("expected 1 to 4 channels");
     if (rows.bits != 8 && rows.bits != 16) cannot_write("expected 8 or 16 bits");
-}
-
-/// Sets the bytes of a row, `bits` each, from its codes.
-void set_bytes(std::span<const std::uint16_t> codes, int bits, png_byte* bytes) {
-    if (bits == 16) {
-        for (const std::uint16_t code : codes) {
-            *bytes++ = png_byte(code >> 8);
-            *bytes++ = png_byte(code & 255);
-        }
-        return;
-    }
-    if (!narrow_codes(codes, bytes)) cannot_write("a code does not fit 8 bits");
-}
-
-/// A row of bytes below a margin of zeros.
-class MarginedRow {
-  public:
-    explicit MarginedRow(std::size_t bytes) : bytes_(kPngRowMargin + bytes) {}
-    [[nodiscard]] png_byte* data() { return bytes_.data() + kPngRowMargin; }
-    [[nodiscard]] std::span<const png_byte> bytes() const {
-        return std::span(bytes_).subspan(kPngRowMargin);
-    }
-    void swap(MarginedRow& other) { bytes_.swap(other.bytes_); }
-
-  private:
-    std::vector<png_byte> bytes_;
-};
-
-/// Bytes in large pages: with small ones they would cost hundreds of page faults.
-struct ByteBlock {
-    HugeArray<png_byte> data;
-    std::size_t size;
-};
-
-/// The rows with their filters, as the stream that is compressed holds them.
-ByteBlock filtered_rows(const CodeRows& rows) {
-    std::vector<std::uint16_t> codes(std::size_t(rows.width) * std::size_t(rows.channels));
-    const std::size_t code_bytes = std::size_t(rows.bits / 8);
-    const std::size_t pixel = std::size_t(rows.channels) * code_bytes;
-    const std::size_t row_bytes = 1 + codes.size() * code_bytes;
-    MarginedRow row(codes.size() * code_bytes), above = row;
-    const std::size_t size = row_bytes * std::size_t(rows.height);
-    ByteBlock filtered{make_huge_array<png_byte>(size), size};
-    png_byte* to = filtered.data.get();
-    for (int y = 0; y < rows.height; ++y) {
-        rows.fill(y, codes);
-        set_bytes(codes, rows.bits, row.data());
-        const PngFilter filter = best_png_filter(row.bytes(), above.bytes(), pixel);
-        *to = png_byte(filter);
-        apply_png_filter(filter, row.bytes(), above.bytes(), pixel, to + 1);
-        to += row_bytes;
-        row.swap(above);
-    }
-    return filtered;
-}
-
-/// As a stream of zlib.
-ByteBlock compressed(const ByteBlock& bytes) {
-    // Level 6 takes a third more time than level 4, for files smaller by a few percent.
-    constexpr int kLevel = 4;
-    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-        libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-    if (!compressor) throw std::bad_alloc();
-    const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), bytes.size);
-    ByteBlock result{make_huge_array<png_byte>(room), 0};
-    result.size = libdeflate_zlib_compress(compressor.get(), bytes.data.get(), bytes.size,
-                                           result.data.get(), room);
-    return result;
 }
 
 bool is_ascii(const std::string& text) {
@@ -374,16 +304,18 @@ StoredImage decode_png(std::string_view bytes, const std::string& name, const Im
 std::vector<std::byte> encode_png(const CodeRows& rows, const ImageMetadata& metadata) {
     check_format(rows);
     std::vector<png_text> texts = text_chunks(metadata);
-    const ByteBlock data = compressed(filtered_rows(rows));
+    const std::vector<std::vector<std::uint8_t>> data = compressed_rows(rows);
     std::vector<std::byte> bytes;
-    bytes.reserve(data.size + 4096);
+    std::size_t size = 4096;
+    for (const auto& part : data) size += part.size() + 12;
+    bytes.reserve(size);
     PngWriter writer(bytes);
     PngState& state = writer.state();
     state.rows = &rows;
     state.texts = texts.data();
     state.text_count = int(texts.size());
     writer.check(write_header);
-    state.data = {data.data.get(), data.size};
+    state.data = data;
     writer.check(write_data);
     return bytes;
 }

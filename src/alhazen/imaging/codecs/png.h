@@ -4,7 +4,8 @@
 /// Source: ISO/IEC 15948 (PNG).
 /// Differs: ignores gAMA, sBIT, ICC profiles and text: samples are sRGB display codes.
 /// Conventions: read samples are code / 255 or code / 65535; palettes become RGB, tRNS becomes
-/// alpha. Damage in critical chunks, including a truncated file, is an error.
+/// alpha. Damage in critical chunks, including a truncated file, is an error. Threads: large
+/// pictures are encoded by several, to the same bytes with any number of them.
 
 #include <cstddef>
 #include <string>

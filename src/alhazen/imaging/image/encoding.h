@@ -36,7 +36,7 @@ struct CodeRows {
     int width = 0, height = 0;
     int channels = 3;
     int bits = 8;
-    /// Writes the codes of row `y`, [width][channels].
+    /// Writes the codes of row `y`, [width][channels]. Called from several threads, in any order.
     std::function<void(int y, std::span<std::uint16_t> codes)> fill = {};
 };
 
