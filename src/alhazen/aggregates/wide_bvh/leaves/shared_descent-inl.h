@@ -25,7 +25,6 @@
 #include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/ray_rows-inl.h"
-#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -129,14 +128,14 @@ class CornersByRay {
 #endif
 };
 
-/// The filter of triangles for sixteen rays of any directions, in lanes.
+/// The filter of triangles for sixteen rays of any directions, in lanes. `Scene`: as WideBvhScene.
+template <class Scene>
 class SharedFilter {
   public:
     using F = RayRows::F;
 
   protected:
-    HWY_INLINE SharedFilter(const WideBvhScene& scene, const RayRows& rays)
-        : scene_(scene), rays_(rays) {}
+    HWY_INLINE SharedFilter(const Scene& scene, const RayRows& rays) : scene_(scene), rays_(rays) {}
 
     /// Whether a leaf holds triangles, few enough for so many rays.
     [[nodiscard]] HWY_INLINE bool suits(NodeRef leaf, std::uint32_t rays) const {
@@ -167,7 +166,7 @@ class SharedFilter {
         }
     }
 
-    const WideBvhScene& scene_;
+    const Scene& scene_;
     const RayRows& rays_;
 
   private:
@@ -211,11 +210,16 @@ class SharedFilter {
 };
 
 /// See the head of the file.
-class SharedDescent : SharedFilter {
+template <class Scene>
+class SharedDescent : SharedFilter<Scene> {
+    using Base = SharedFilter<Scene>;
+    using Base::rays_, Base::scene_, Base::suits, Base::filter_leaf;
+    using typename Base::F;
+
   public:
-    HWY_INLINE SharedDescent(const WideBvhScene& scene, const PrefetchTable& prefetch_table,
+    HWY_INLINE SharedDescent(const Scene& scene, const PrefetchTable& prefetch_table,
                              const RayRows& rays, LeftSubtrees& left)
-        : SharedFilter(scene, rays), prefetch_table_(prefetch_table), left_(left) {}
+        : Base(scene, rays), prefetch_table_(prefetch_table), left_(left) {}
 
     /// Bits of the rays, of `rays`, that certainly hit anything. What the others have yet to visit
     /// is left.
@@ -298,10 +302,15 @@ class SharedDescent : SharedFilter {
 
 /// The nearest triangles that sixteen rays are sure to hit in leaves that they visit together
 /// before any other: leaves below the root, for closest hits. They limit the rays.
-class SharedNearest : SharedFilter {
+template <class Scene>
+class SharedNearest : SharedFilter<Scene> {
+    using Base = SharedFilter<Scene>;
+    using Base::suits, Base::filter_leaf;
+    using typename Base::F;
+
   public:
-    HWY_INLINE SharedNearest(const WideBvhScene& scene, RayRows& rays)
-        : SharedFilter(scene, rays),
+    HWY_INLINE SharedNearest(const Scene& scene, RayRows& rays)
+        : Base(scene, rays),
           limited_(rays),
           lo_(std::numeric_limits<float>::infinity()),
           place_(0.0f) {}
