@@ -1,5 +1,6 @@
 // Rays of a batch prepared sixteen at a time: the hits of single rays wherever some of the sixteen
-// are prepared apart or miss the root; the work of rays that miss the root.
+// are prepared apart or miss the root, or hit the walls of a room together; the work of rays that
+// miss the root.
 
 #include <gtest/gtest.h>
 
@@ -118,6 +119,103 @@ TEST(RayRecords, HaveTheHitsOfSingleRaysInColumns) {
             }
             compare_columns(*tree, alike, target + ", from one point", Coherence::Any);
         }
+    }
+}
+
+/// A closed room whose walls are leaves below the root, some of them twice, with small triangles in
+/// it. Every other piece of five triangles is seen by shadow rays only.
+PrimitiveTable room() {
+    RandomEngine random(87);
+    TableBuilder builder;
+    const auto corner = [](int i, double a, double b, double side) {
+        Vec3 p;
+        (&p.x)[i] = side;
+        (&p.x)[(i + 1) % 3] = a;
+        (&p.x)[(i + 2) % 3] = b;
+        return p;
+    };
+    for (int wall = 0; wall < 9; ++wall) {
+        const double side = wall % 2 == 0 ? -1.1 : 1.1;
+        const auto at = [&](double a, double b) { return corner(wall % 6 / 2, a, b, side); };
+        builder.add_triangle(at(-1.1, -1.1), at(1.1, -1.1), at(1.1, 1.1), true);
+        builder.add_triangle(at(-1.1, -1.1), at(1.1, 1.1), at(-1.1, 1.1), true);
+    }
+    for (int i = 0; i < 600; ++i) {
+        const Vec3 a = uniform_point(random, 0.7);
+        builder.add_triangle(a, a + uniform_point(random, 0.05), a + uniform_point(random, 0.05),
+                             true);
+    }
+    PrimitiveTable table = builder.finish();
+    std::vector<PlacedMesh> pieces;
+    for (const PlacedMesh& placed : table.meshes) {
+        const auto& triangles = placed.mesh->triangles;
+        for (std::size_t begin = 0; begin < triangles.size(); begin += 5) {
+            auto piece = std::make_shared<TriangleMesh>();
+            piece->positions = placed.mesh->positions;
+            for (std::size_t i = begin; i < std::min(triangles.size(), begin + 5); ++i) {
+                piece->triangles.push_back(triangles[i]);
+            }
+            const RayMask mask = begin % 2 == 0 ? kAllRays : mask_of(RayKind::Shadow);
+            pieces.push_back({piece, placed.material, 0, placed.mirrored, 0, mask});
+        }
+    }
+    table.meshes = std::move(pieces);
+    table.finish();
+    return table;
+}
+
+/// From neighbouring points of a room, from outside, along its edges and up to its walls.
+std::vector<Ray> rays_of_a_room(std::size_t count) {
+    RandomEngine random(88);
+    std::vector<Ray> rays;
+    Vec3 from;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 32 == 0) from = uniform_point(random, i % 96 == 0 ? 2 : 0.9);
+        Ray ray{from + uniform_point(random, 0.01), uniform_point(random, 1), 0, 100};
+        switch (i % 16) {
+            case 3:  // the diagonal of a wall, or its edge
+                ray.origin = {0, 0, 0};
+                ray.direction = {1, i % 32 == 3 ? 0.5 : 1, i % 32 == 3 ? 0.5 : 1};
+                break;
+            case 7:
+                ray.origin = {0, 0, 0};
+                ray.direction = {1, 0, 0};
+                ray.t_max = i % 32 == 7 ? 1.1 : std::nextafter(1.1, 0);
+                break;
+            case 11:  // within a wall
+                ray.origin = {1.1, 0, 0};
+                ray.direction.x = 0;
+                break;
+            default:
+                break;
+        }
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+TEST(RayRecords, HaveTheHitsOfSingleRaysInARoom) {
+    const PrimitiveTable table = room();
+    const std::vector<Ray> rays = rays_of_a_room(4000);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tree = make_aggregate("wide_bvh", table);
+        for (const RayKind kind : {RayKind::Shadow, RayKind::Reflection}) {
+            const RayQuery query{nullptr, mask_of(kind)};
+            std::vector<Hit> hits(rays.size());
+            const auto occluded = std::make_unique<bool[]>(rays.size());
+            tree->closest_batch(rays, hits, query);
+            tree->occluded_batch(rays, {occluded.get(), rays.size()}, query);
+            int found = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const Answer answer = ask(*tree, rays[i], mask_of(kind));
+                found += answer.found;
+                ASSERT_TRUE(same(hits[i], answer.closest)) << target << ": " << show(rays[i]);
+                ASSERT_EQ(occluded[i], answer.occluded) << target << ": " << show(rays[i]);
+            }
+            EXPECT_GT(found, 1000) << target;
+        }
+        compare_columns(*tree, rays, target + ", room", Coherence::Any);
     }
 }
 

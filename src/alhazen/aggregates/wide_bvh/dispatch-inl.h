@@ -17,10 +17,12 @@
 #include <limits>
 #include <new>
 #include <span>
+#include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shared_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -63,17 +65,39 @@ HWY_INLINE bool run(Query& query, bool near_last, Stats stats) {
 /// sixteen, those that are not prepared in lanes come last.
 template <class Query, std::size_t W, class Result, class Stats>
 class BatchSource {
+    /// Whether rays visit the upper nodes together (shared_descent-inl.h).
+    static constexpr bool kShares = RayRecords::kSupported && W == WideNode::kWidth &&
+                                    !Query::kOrdered && Query::kExact && !Stats::kCounts;
+    /// Whether they are tested together against the leaves of the root first, for closest hits.
+    static constexpr bool kLimits =
+        RayRecords::kHasEntries<W> && Query::kOrdered && Query::kExact && !Stats::kCounts;
+
   public:
-    HWY_INLINE BatchSource(const WideBvhScene& scene, const GivenRays& rays,
-                           std::span<Result> results, Stats stats)
+    HWY_INLINE BatchSource(const WideBvhScene& scene, const PrefetchTable& prefetch_table,
+                           const GivenRays& rays, std::span<Result> results, Stats stats)
         : scene_(scene),
+          prefetch_table_(prefetch_table),
           rays_(rays),
           results_(results),
           frame_(scene.layout->frame, rays),
           stats_(stats),
           resolution_(scene) {
         const WideBvh& tree = scene.layout->tree;
-        if (!tree.root.is_leaf()) root_ = &nodes_of<W>(tree)[tree.root.index()];
+        if (tree.root.is_leaf()) return;
+        root_ = &nodes_of<W>(tree)[tree.root.index()];
+        for (std::size_t k = 0; k < 3; ++k) {
+            root_box_[k][0] = *std::ranges::min_element(root_->planes[k]);
+            root_box_[k + 3][0] = *std::ranges::max_element(
+                std::span(root_->planes[k + 3]).first(root_->child_count()));
+        }
+        if (scene.layout->is_indexed()) return;
+        for (std::uint32_t i = 0; kLimits && i < root_->child_count(); ++i) {
+            const NodeRef child = root_->child[i];
+            const bool first =
+                child.is_leaf() && static_cast<LeafType>(child.kind()) == LeafType::Triangles;
+            first_leaves_ |= std::uint32_t{first} << i;
+        }
+        shares_ = kShares || first_leaves_ != 0;
     }
 
     /// `entries`: set to where the ray enters the children of the root, if that is known.
@@ -81,14 +105,25 @@ class BatchSource {
         while (true) {
             if (HWY_LIKELY(prepared_ != 0)) {
                 const std::size_t i = take(prepared_);
+                if constexpr (kShares) started_ = i - first_;
                 if constexpr (RayRecords::kHasEntries<W>) {
-                    if (HWY_LIKELY(root_ != nullptr)) entries = records_.entries(i - first_);
+                    if (HWY_LIKELY(root_ != nullptr && !(kShares && shared_))) {
+                        entries = records_.entries(i - first_);
+                    }
                 }
-                new (place) Query(scene_, PreparedRay{given_[i - first_], records_[i - first_]},
-                                  results_[i]);
+                auto* const query = new (place) Query(
+                    scene_, PreparedRay{given_[i - first_], records_[i - first_]}, results_[i]);
+                if constexpr (kLimits) {
+                    if ((limited_ >> (i - first_) & 1) != 0) {
+                        const std::uint32_t nearest = nearest_of(i - first_);
+                        (void)query->candidates.add(block_of(nearest), nearest % kBlockWidth,
+                                                    nearest_lo_[i - first_]);
+                    }
+                }
                 return true;
             }
             if (HWY_UNLIKELY(others_ != 0)) {
+                if constexpr (kShares) started_ = kAlone;
                 if (start_alone(place, take(others_))) return true;
             } else if (!fill()) {
                 return false;
@@ -96,6 +131,10 @@ class BatchSource {
         }
     }
 
+    /// See sorted_stream-inl.h.
+    HWY_INLINE std::size_t subtrees(std::uint32_t* place) const requires kShares {
+        return started_ == kAlone || !shared_ ? 0 : left_.copy(started_, place);
+    }
     /// Called when the query has visited all of its leaves.
     HWY_INLINE void finish(Query& query, Stats stats) {
         if constexpr (requires { query.finish_later(resolution_, stats); }) {
@@ -111,9 +150,6 @@ class BatchSource {
     static constexpr std::size_t kRays = RayRecords::kRays;
     /// Number of results to prefetch ahead.
     static constexpr std::size_t kSoon = 16;
-
-    static bool done(const Hit&) { return false; }
-    static bool done(bool occluded) { return occluded; }
 
     /// Removes the first of `bits`; the index of the ray.
     HWY_INLINE std::size_t take(std::uint32_t& bits) {
@@ -131,25 +167,100 @@ class BatchSource {
         const std::size_t count = std::min(kRays, rays_.size() - first_);
         if (count == 0) return false;
         next_ += count;
-        take_rays(count);
-        std::uint32_t waiting = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            waiting |= std::uint32_t{!done(results_[first_ + i])} << i;
-        }
+        const std::uint32_t waiting = unfinished(count);
         if (HWY_LIKELY(rays_.size() - next_ >= kRays)) rays_.prefetch<kRays>(next_);
         if constexpr (RayRecords::kSupported) {
             if (HWY_LIKELY(count == kRays)) {
-                std::uint32_t missed = 0;
-                const std::uint32_t prepared = records_.prepare(
-                    frame_, Query::slab_slack(scene_.layout->frame), rays_, first_, root_, missed);
-                others_ = waiting & ~prepared;
-                prepared_ = waiting & prepared & ~missed;
-                skip(waiting & missed);
+                prepare(waiting);
+                if ((prepared_ | others_) != 0) take_rays(count);
                 return true;
             }
         }
+        take_rays(count);
         others_ = waiting;
         return true;
+    }
+    /// Sets `prepared_` and `others_` for sixteen rays.
+    HWY_INLINE void prepare(std::uint32_t waiting) {
+        const FrameSlack& slack = scene_.layout->frame.slack;
+        RayRows rays;
+        rays.load(frame_, Query::slab_slack(scene_.layout->frame), rays_, first_);
+        others_ = waiting & ~rays.prepared;
+        const std::uint32_t all = waiting & rays.prepared;
+        prepared_ = all;
+        if (HWY_LIKELY(root_ != nullptr)) {
+            RayRows::F entry;
+            prepared_ = all & bits_of(rays.meet(root_box_, 0, entry));
+            shared_ = prepared_ != 0 && shares_ && trials_.due();
+            if constexpr (kShares) {
+                if (shared_) {
+                    share(rays);
+                    if (prepared_ != 0) records_.store(rays, slack);
+                    return;
+                }
+            }
+            if constexpr (kLimits) {
+                limited_ = 0;
+                if (shared_) return limit(rays);
+            }
+            const auto none = [](std::size_t, std::uint32_t) { return 0u; };
+            if (prepared_ != 0) prepared_ = records_.enter(rays, *root_, prepared_, 0, none);
+            skip(all & ~prepared_);
+        }
+        if (prepared_ != 0) records_.store(rays, slack);
+    }
+    /// Tests the prepared rays against the leaves of the root, and ends those that meet nothing
+    /// before what they hit there.
+    HWY_INLINE void limit(RayRows& rays) {
+        const std::uint32_t all = prepared_;
+        SharedNearest nearest(scene_, rays);
+        prepared_ = records_.enter(rays, *root_, all, first_leaves_,
+                                   [&](std::size_t slot, std::uint32_t met)
+                                       HWY_ATTR { return nearest.visit(root_->child[slot], met); });
+        limited_ = nearest.found();
+        trials_.tried(4 * std::popcount(limited_) >= std::popcount(all));
+        std::uint32_t done = limited_ & ~prepared_;
+        if ((prepared_ | done) == 0) return;
+        records_.store(rays, scene_.layout->frame.slack);
+        if (limited_ == 0) return;
+        nearest.store(nearest_lo_, nearest_place_);
+        if (done == 0) return;
+        take_rays(kRays);
+        for (; done != 0; done &= done - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(done));
+            const std::uint32_t place = nearest_of(i);
+            resolution_.add(given_[i], records_[i].filter, results_[first_ + i], block_of(place),
+                            place % kBlockWidth, stats_);
+        }
+    }
+    [[nodiscard]] HWY_INLINE std::uint32_t nearest_of(std::size_t ray) const {
+        return std::bit_cast<std::uint32_t>(nearest_place_[ray]);
+    }
+    [[nodiscard]] HWY_INLINE const TriangleBlock& block_of(std::uint32_t place) const {
+        return scene_.layout->triangles[place / kBlockWidth];
+    }
+    /// Takes the prepared rays through the tree together; those that are left to the stream.
+    HWY_INLINE void share(const RayRows& rays) {
+        const int all = std::popcount(prepared_);
+        SharedDescent descent(scene_, prefetch_table_, rays, left_);
+        const std::uint32_t hit = descent.run(scene_.layout->tree.root, prepared_);
+        for (std::uint32_t rest = hit; rest != 0; rest &= rest - 1) {
+            results_[first_ + static_cast<std::size_t>(std::countr_zero(rest))] = true;
+        }
+        prepared_ &= left_.rays() & ~hit;
+        trials_.tried(4 * std::popcount(prepared_) <= 3 * all);
+    }
+    /// Bits of those of the rays from first_ on that are to be traced.
+    [[nodiscard]] HWY_INLINE std::uint32_t unfinished(std::size_t count) const {
+        if constexpr (std::is_same_v<Result, bool>) {
+            std::uint32_t waiting = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                waiting |= std::uint32_t{!results_[first_ + i]} << i;
+            }
+            return waiting;
+        } else {
+            return (1u << count) - 1;
+        }
     }
     HWY_INLINE void take_rays(std::size_t count) {
         const RayColumns* const columns = rays_.columns();
@@ -172,15 +283,26 @@ class BatchSource {
     }
 
     const WideBvhScene& scene_;
+    const PrefetchTable& prefetch_table_;
     GivenRays rays_;
     const Ray* given_ = nullptr;  ///< those from first_ on
     std::span<Result> results_;
     LaneFrame frame_;
     const WideNodeOf<W>* root_ = nullptr;
+    float root_box_[6][1] = {};  ///< as planes of a node
     [[no_unique_address]] Stats stats_;
     std::size_t first_ = 0, next_ = 0;
     std::uint32_t prepared_ = 0, others_ = 0;  ///< bits of the rays from first_ on
     RayRecords records_;
+    std::uint32_t first_leaves_ = 0;  ///< bits of the children of the root that are leaves
+    std::uint32_t limited_ = 0;       ///< bits of the rays that have a nearest triangle there
+    alignas(64) float nearest_lo_[kRays], nearest_place_[kRays];  ///< see SharedNearest
+    static constexpr std::size_t kAlone = kRays;
+    bool shares_ = false;  ///< whether rays may go together
+    bool shared_ = false;  ///< whether those from first_ on did
+    SharedTrials trials_;
+    std::size_t started_ = kAlone;  ///< the last ray that started
+    LeftSubtrees left_;
     Ray of_columns_[kRays];
     BatchResolution resolution_;
 };
@@ -188,7 +310,6 @@ class BatchSource {
 template <class Query, std::size_t W, class Result, class Stats>
 HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
                             std::span<Result> results, Stats stats) {
-    BatchSource<Query, W, Result, Stats> source(scene, rays, results, stats);
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
@@ -199,6 +320,7 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
+    BatchSource<Query, W, Result, Stats> source(scene, prefetch_table, rays, results, stats);
     traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
     source.finish_all(stats);
 }

@@ -73,7 +73,7 @@ HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const
     if ((lanes & ~bits_of((least < -error) & (most > error))) == 0) return false;
 
     const F sz = load_row(packet.reciprocal[kz]);
-    const F fine = bound_crossing(v, far, eu, ev, ew, sz, packet.near_error, out.lo, out.hi);
+    const F fine = bound_crossing(v, far, eu, ev, ew, sz, F(packet.near_error), out.lo, out.hi);
     // Written so that a NaN is a candidate and not sure.
     out.candidates =
         lanes & ~bits_of(((least < -fine) & (most > fine)) | (out.lo > load_row(packet.s_max)) |

@@ -41,6 +41,8 @@ namespace HWY_NAMESPACE {
 /// The functions return true to stop. `Test` is a triangle test (triangle_tests-inl.h).
 template <class Query, class Test>
 struct LeafQuery {
+    static constexpr bool kExact = Test::kExact;
+
     SlabRay slabs;
     TriangleFilterRay filter;
     Ray ray;

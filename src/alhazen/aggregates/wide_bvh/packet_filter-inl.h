@@ -219,7 +219,7 @@ HWY_NOINLINE inline bool refine_group(const TriangleBlock& block, std::size_t la
     }
     const F eu = edge_of(v[1], v[2]), ev = edge_of(v[2], v[0]), ew = edge_of(v[0], v[1]);
     const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-    const F fine = bound_crossing(v, far, eu, ev, ew, sz, packet.near_error, out.lo, out.hi);
+    const F fine = bound_crossing(v, far, eu, ev, ew, sz, F(packet.near_error), out.lo, out.hi);
     const auto outside = ((least < -fine) & (most > fine)) | (out.lo > row(group.s_max)) |
                          (out.hi < row(group.s_min));
     const auto inside = ((least > fine) | (most < -fine)) & (out.lo >= row(group.sure_min)) &

@@ -39,11 +39,14 @@ HWY_INLINE bool is_nearer(float entry, float entry_of_lower_slot) {
            (std::bit_cast<std::uint32_t>(entry_of_lower_slot) & kEntryBits<W>);
 }
 
+/// Largest number of subtrees with which a ray of a stream begins.
+inline constexpr std::size_t kMostBegun = 64;
+
 /// The subtrees to visit, with entry parameters and references in separate arrays, so that lanes
 /// are stored. The height is kept outside, in a register. The lowest element is a sentinel.
 template <std::size_t W>
 struct NodeStack {
-    static constexpr std::size_t kSize = 1 + kTraversalStackSize<W> + W;
+    static constexpr std::size_t kSize = 1 + kMostBegun + kTraversalStackSize<W> + W;
     float entry[kSize];
     std::uint32_t child[kSize];
 

@@ -12,7 +12,10 @@
 /// parameter up to which hits are searched. `slabs` is the ray. `Source` has `start(void* place,
 /// const float*& entries)`, which constructs the query of the next ray there and returns false if
 /// there is none, and sets `entries` to where it enters the W children of the root, infinity where
-/// it does not, if that is known; and `finish(query, stats)`, called after its last leaf.
+/// it does not, if that is known; and `finish(query, stats)`, called after its last leaf. A source
+/// of any-hit queries may have `subtrees(std::uint32_t* place)`, which puts the subtrees with which
+/// the last ray begins there, the first last, at most kMostBegun, and returns their number; 0: it
+/// begins with the root.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_SORTED_STREAM_INL_H_
@@ -164,6 +167,10 @@ class SortedStream {
         if (!source_.start(slot.place, entries)) return false;
         slot.begin(root_);
         if (entries != nullptr) enter_root(slot, entries);
+        if constexpr (requires { source_.subtrees(slot.stack.child); }) {
+            const std::size_t count = source_.subtrees(slot.stack.child + 1);
+            if (count != 0) slot.height = 1 + count;
+        }
         return true;
     }
     /// As visit_node, for the root.

@@ -23,9 +23,9 @@ namespace HWY_NAMESPACE {
 /// returns what an edge function is off at most.
 template <class F, class Corner>
 HWY_INLINE F bound_crossing(const Corner (&v)[3], const F& far, const F& eu, const F& ev,
-                            const F& ew, const F& sz, float near_error, F& lo, F& hi) {
+                            const F& ew, const F& sz, const F& near_error, F& lo, F& hi) {
     const F depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
-    const F off = mul_add(far + depth, F(7.3f * 0x1p-24f), F(near_error));
+    const F off = mul_add(far + depth, F(7.3f * 0x1p-24f), near_error);
     const F fine = off * mul_add(far, F(5.12f), off * F(2.12f));
     const F sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
     const F first = min_lanes(min_lanes(sa, sb), sc), last = max_lanes(max_lanes(sa, sb), sc);
