@@ -109,7 +109,7 @@ class VertexRounding {
           beyond_(kBeyond * inverse_) {}
 
     [[nodiscard]] HWY_INLINE Float4 operator()(const Vec3& p) const {
-        const PointLanes lanes(p);
+        const alhazen::PointLanes lanes(p);  // other kernels have another one
         const Double2 z{lanes.z, lanes.z};
         const Double2 across = local(lanes.xy, across_), deep = local(z, deep_);
 #ifdef __SSE2__
