@@ -195,7 +195,7 @@ INSIDE = {
 
 # Start of an include -> modules that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "imaging", "shading", "shapes", "cameras", "accel", "csg", "aggregates", "illumination", "renderers",
+    "hwy/": {"simd", "imaging", "shading", "shapes", "cameras", "accel", "primitives", "csg", "aggregates", "illumination", "renderers",
              "verification"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/primitives/triangle_bounds.h"
+#include "alhazen/primitives/triangle_run.h"
 
 namespace alhazen {
 namespace {
@@ -38,20 +38,20 @@ struct Share {
     void include_triangles(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end) {
         if (begin >= end) return;
         TriangleBounds all;
-        bool some_empty = false;
-        for_triangles(table, begin, end,
-                      [&](std::uint32_t, const Vec3& a, const Vec3& b, const Vec3& c) {
-                          TriangleBounds one;
-                          if (one.set(a, b, c)) {
-                              all.include(one);
-                          } else {
-                              some_empty = true;
-                          }
-                      });
+        bool complete = true;
+        const IncludeRun include = include_run();
+        for_mesh_parts(
+            table, begin, end,
+            [&](std::uint32_t, const PlacedMesh& placed, std::uint32_t first, std::uint32_t last) {
+                const TriangleMesh& mesh = *placed.mesh;
+                const TriangleRun run{mesh.positions.data(), mesh.triangles.data() + first,
+                                      last - first};
+                complete = include(run, all) && complete;
+            });
         // `padded` has another margin for infinite boxes than the lanes.
         if (!within_reach(all.box())) return include_others(table, begin, end);
         box.include(all.box());
-        bounded = bounded && !some_empty;
+        bounded = bounded && complete;
     }
 };
 

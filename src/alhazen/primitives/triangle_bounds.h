@@ -59,6 +59,8 @@ inline bool some_equal_across(const PointLanes& p, const PointLanes& q, const Po
 
 /// The box of a triangle: lower and upper x and y; `deep` is lower z and negated upper z.
 struct TriangleBounds {
+    static constexpr double kPadding = 8e-16;  ///< of a coordinate
+
     Double2 lower, upper, deep;
 
     TriangleBounds() {
@@ -101,10 +103,9 @@ struct TriangleBounds {
     /// Returns false if it is empty.
     bool pad() {
         if (empty()) return false;
-        constexpr double kRelative = 8e-16;
-        const Double2 across = kRelative * greater(magnitude(lower), magnitude(upper));
+        const Double2 across = kPadding * greater(magnitude(lower), magnitude(upper));
         const Double2 far = magnitude(deep);
-        const double along = kRelative * (far[0] > far[1] ? far[0] : far[1]);
+        const double along = kPadding * (far[0] > far[1] ? far[0] : far[1]);
         lower -= across;
         upper += across;
         deep -= along;
@@ -115,28 +116,40 @@ struct TriangleBounds {
     static Double2 magnitude(Double2 v) { return greater(v, -v); }
 };
 
+/// Calls f(id, placed, first, last) for the parts of meshes that the triangles with ids from
+/// `begin` to `end` are: `first` and `last` number triangles of the mesh, `id` is that of the first
+/// one.
+template <class F>
+void for_mesh_parts(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end, F&& f) {
+    const std::uint32_t first = table.first(kTriangleKind);
+    for (std::uint32_t id = begin; id < end;) {
+        const PlacedMesh& placed = table.mesh_of(id - first);
+        const auto size = static_cast<std::uint32_t>(placed.mesh->triangles.size());
+        const std::uint32_t from = id - first - placed.first_triangle;
+        const std::uint32_t until = std::min(size, from + (end - id));
+        f(id, placed, from, until);
+        id += until - from;
+    }
+}
+
 /// Calls f(id, a, b, c) with the corners of the triangles with ids from `begin` to `end`.
 template <class F>
 void for_triangles(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end, F&& f) {
     constexpr std::uint32_t kAhead = 8;  // triangles prefetched
-    const std::uint32_t first = table.first(kTriangleKind);
-    for (std::uint32_t id = begin; id < end;) {
-        const PlacedMesh& placed = table.mesh_of(id - first);
-        const TriangleMesh& mesh = *placed.mesh;
-        const std::uint32_t first_of_mesh = first + placed.first_triangle;
-        const std::uint32_t last =
-            std::min(end, first_of_mesh + static_cast<std::uint32_t>(mesh.triangles.size()));
-        const auto* const triangles = mesh.triangles.data();
-        const Vec3* const p = mesh.positions.data();
-        for (; id < last; ++id) {
-            const auto& ahead = triangles[std::min(id + kAhead, last - 1) - first_of_mesh];
-            __builtin_prefetch(p + ahead[0]);
-            __builtin_prefetch(p + ahead[1]);
-            __builtin_prefetch(p + ahead[2]);
-            const auto& corners = triangles[id - first_of_mesh];
-            f(id, p[corners[0]], p[corners[1]], p[corners[2]]);
-        }
-    }
+    for_mesh_parts(
+        table, begin, end,
+        [&](std::uint32_t id, const PlacedMesh& placed, std::uint32_t first, std::uint32_t last) {
+            const auto* const triangles = placed.mesh->triangles.data();
+            const Vec3* const p = placed.mesh->positions.data();
+            for (std::uint32_t i = first; i < last; ++i) {
+                const auto& ahead = triangles[std::min(i + kAhead, last - 1)];
+                __builtin_prefetch(p + ahead[0]);
+                __builtin_prefetch(p + ahead[1]);
+                __builtin_prefetch(p + ahead[2]);
+                const auto& corners = triangles[i];
+                f(id + (i - first), p[corners[0]], p[corners[1]], p[corners[2]]);
+            }
+        });
 }
 
 }  // namespace alhazen

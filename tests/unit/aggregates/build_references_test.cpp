@@ -8,6 +8,8 @@
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -171,6 +173,65 @@ TEST(BuildReferences, BlocksOfFastTreesHoldTheTableWithinTheirBoxes) {
             mesh.positions.push_back({1e300, -1e300, 1e300});
             table.meshes[0].mesh = std::make_shared<TriangleMesh>(mesh);
             expect_blocks_of_table(table, name, BuildQuality::Fast);
+        }
+    }
+}
+
+template <class T>
+std::vector<std::byte> bytes_of(const MappableVector<T>& values) {
+    const auto* const first = reinterpret_cast<const std::byte*>(values.data());
+    return {first, first + values.size() * sizeof(T)};
+}
+
+/// A mesh alone, whose leaves are mostly not full, and several meshes and shapes.
+std::vector<PrimitiveTable> tables_of_fast_trees() {
+    std::vector<PrimitiveTable> tables;
+    RandomEngine random(59);
+    for (const std::size_t count : {1, 2, 5, 9, 700, 30000}) {
+        TriangleMesh mesh;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            // Some triangles have the same place on the curve.
+            const Vec3 at = i % 7 == 0 ? Vec3{} : uniform_point(random, 1);
+            for (int k = 0; k < 3; ++k) mesh.positions.push_back(at + uniform_point(random, 0.01));
+            mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        PrimitiveTable table;
+        table.meshes.push_back({std::make_shared<TriangleMesh>(mesh), MaterialId{0}, 0, false});
+        table.material_opacity = {Opacity::Opaque};
+        table.finish();
+        tables.push_back(std::move(table));
+    }
+    tables.push_back(odd_table(1, {}, 60));
+    return tables;
+}
+
+TEST(BuildReferences, FastTreesDependNeitherOnTheInstructionSetNorOnTheThreads) {
+    for (const PrimitiveTable& table : tables_of_fast_trees()) {
+        const std::string name = std::to_string(table.size());
+        Box3 box;
+        std::vector<std::byte> nodes, blocks, indices;
+        for (const std::string& target : simd_targets()) {
+            const SimdTargetOverride forced(target);
+            for (const int threads : {0, 1}) {
+                WideBvhLayout layout, indexed;
+                ThreadLimit(threads).run([&] {
+                    const BoundedPrimitives bounded(table);
+                    if (blocks.empty()) box = bounded.all();
+                    EXPECT_EQ(bounded.all(), box) << name << ", " << target;
+                    layout = build_wide_bvh(table, bounded, {BuildQuality::Fast});
+                    indexed = build_wide_bvh(
+                        table, bounded, {BuildQuality::Fast, Precision::Robust, Leaves::Indices});
+                });
+                if (blocks.empty()) {
+                    nodes = bytes_of(layout.tree.nodes);
+                    blocks = bytes_of(layout.triangles);
+                    indices = bytes_of(indexed.indices);
+                }
+                EXPECT_TRUE(bytes_of(layout.tree.nodes) == nodes) << name << ", " << target;
+                EXPECT_TRUE(bytes_of(layout.triangles) == blocks) << name << ", " << target;
+                EXPECT_TRUE(bytes_of(indexed.tree.nodes) == nodes) << name << ", " << target;
+                EXPECT_TRUE(bytes_of(indexed.indices) == indices) << name << ", " << target;
+            }
         }
     }
 }

@@ -1,6 +1,8 @@
 #pragma once
 /// Boxes of builders, in two registers of four floats.
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -42,5 +44,36 @@ struct Box4 {
         return d[0] * d[1] + d[1] * d[2] + d[2] * d[0] + 1e-6f * (d[0] + d[1] + d[2]) + 1e-12f;
     }
 };
+
+/// A register whose fourth lane has these bits.
+inline Float4 with_fourth(Float4 v, std::uint32_t bits) {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    Int4 lanes;
+    std::memcpy(&lanes, &v, sizeof(lanes));
+    lanes = (lanes & Int4{-1, -1, -1, 0}) | Int4{0, 0, 0, static_cast<std::int32_t>(bits)};
+    std::memcpy(&v, &lanes, sizeof(v));
+    return v;
+}
+
+/// Writes a reference by two stores.
+inline void set_reference(BuildReference& to, const Box4& box, std::uint32_t id,
+                          std::uint32_t kind) {
+    const Float4 lo = with_fourth(box.lo, id), hi = with_fourth(box.hi, kind);
+    std::memcpy(to.lo, &lo, sizeof(lo));
+    std::memcpy(to.hi, &hi, sizeof(hi));
+}
+
+/// Writes a node; its box by two stores, of which the first is one number too long.
+inline void set_node(BinaryNode& to, const Box4& box, std::uint32_t begin, std::uint32_t end,
+                     std::uint32_t right, std::uint32_t kind) {
+    static_assert(offsetof(BinaryNode, begin) == 24 && offsetof(FloatBox, hi) == 12);
+    auto* const first = reinterpret_cast<std::byte*>(&to);
+    const Float4 hi = with_fourth(box.hi, begin);
+    std::memcpy(first, &box.lo, sizeof(box.lo));
+    std::memcpy(first + offsetof(FloatBox, hi), &hi, sizeof(hi));
+    to.end = end;
+    to.right = right;
+    to.kind = kind;
+}
 
 }  // namespace alhazen

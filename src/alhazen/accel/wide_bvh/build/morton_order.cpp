@@ -14,9 +14,11 @@ constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 /// Fewer points are sorted by comparison.
 constexpr std::size_t kLeastForDigits = 1024;
 
-/// Parts of a pass over `size` entries. Few, because each counts all digits.
+/// Parts of a pass over `size` entries. Few, because each counts all digits; equal ones and an even
+/// number of them, for two threads.
 std::size_t part_size(std::size_t size) {
-    return std::max<std::size_t>(16384, (size + 7) / 8);
+    const std::size_t parts = 2 * std::clamp<std::size_t>(size / 24576, 1, 4);
+    return (size + parts - 1) / parts;
 }
 
 /// One stable pass of a radix sort: parts are counted, then written, in parallel.
@@ -114,15 +116,26 @@ CurveGrid::CurveGrid(const Box4& box) : lo_(box.lo) {
     most_[3] = 0.0f;
 }
 
+CurveGrid::Codes::Codes(const CurveGrid& grid) : grid_(grid) {
+    static_assert(kAxisBits == 11);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto cells = static_cast<std::uint32_t>(grid.most_[axis]) + 1;
+        for (std::uint32_t i = 0; i < cells; ++i) {
+            all_[axis][i] = grid.low_[axis][i % kLow] | grid.high_[axis][i / kLow];
+        }
+    }
+}
+
 CurveOrder::CurveOrder(const CurvePoints& points, HugeRoom& room)
     : size_(points.size), entries_(room.take<Entry>(points.size)) {
     if (size_ == 0) return;
     Entry* other = room.take<Entry>(size_);
     const CurveGrid grid(box_of(points));
+    const CurveGrid::Codes code(grid);
     parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
         Entry* const to = entries_;
         for_points(points, begin, end, [&](Float4 p, std::size_t i) {
-            to[i] = std::uint64_t{grid.code(p)} << 32 | i;
+            to[i] = std::uint64_t{code(p)} << 32 | i;
         });
     });
     sort(entries_, other, size_);
@@ -151,11 +164,14 @@ void CurveOrder::sort(Entry*& entries, Entry*& other, std::size_t size) {
 
 std::vector<CurveOrder::Run> CurveOrder::crowded_cells() const {
     std::vector<std::vector<Run>> parts((size_ - 1) / kPointsAtOnce + 1);
-    const auto cell = [this](std::size_t i) { return entries_[i] >> 32; };
-    parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+    if (size_ <= kCurveLeafSize) return {};
+    parallel_for(size_ - kCurveLeafSize, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        const Entry* const entries = entries_;
+        const auto cell = [entries](std::size_t i) { return entries[i] >> 32; };
         // A run belongs to the part that it begins in.
-        for (std::size_t i = begin; i < end && i + kCurveLeafSize < size_; ++i) {
-            if (cell(i) != cell(i + kCurveLeafSize) || (i > 0 && cell(i - 1) == cell(i))) continue;
+        for (std::size_t i = begin; i < end; ++i) {
+            if ((entries[i] ^ entries[i + kCurveLeafSize]) >> 32 != 0) continue;
+            if (i > 0 && cell(i - 1) == cell(i)) continue;
             std::size_t last = i + kCurveLeafSize + 1;
             while (last < size_ && cell(last) == cell(i)) ++last;
             parts[begin / kPointsAtOnce].push_back({i, last});

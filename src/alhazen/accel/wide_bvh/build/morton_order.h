@@ -23,19 +23,40 @@ class CurveGrid {
 
     /// Precondition: the point is in the box.
     [[nodiscard]] std::uint32_t code(Float4 point) const {
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
-        const Int4 cell = __builtin_convertvector(lesser((point - lo_) * scale_, most_), Int4);
-        std::uint32_t code = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::uint32_t>(cell[axis]);
-            code |= low_[axis][i % kLow] | high_[axis][i / kLow];
-        }
-        return code;
+        const Cell c = cell(point);
+        return (low_[0][c.x % kLow] | high_[0][c.x / kLow]) |
+               (low_[1][c.y % kLow] | high_[1][c.y / kLow]) |
+               (low_[2][c.z % kLow] | high_[2][c.z / kLow]);
     }
+
+    /// The codes of many points, by larger tables. Keeps a reference.
+    class Codes {
+      public:
+        explicit Codes(const CurveGrid& grid);
+        [[nodiscard]] std::uint32_t operator()(Float4 point) const {
+            const Cell c = grid_.cell(point);
+            return all_[0][c.x] | all_[1][c.y] | all_[2][c.z];
+        }
+
+      private:
+        const CurveGrid& grid_;
+        std::uint32_t all_[3][1 << 11];  ///< [axis][number of the cell along it]
+    };
 
   private:
     static constexpr int kAxisBits = 11, kLowBits = 6;
     static constexpr std::uint32_t kLow = 1u << kLowBits;
+
+    /// The numbers of a cell along the axes.
+    struct Cell {
+        std::uint32_t x, y, z;
+    };
+    [[nodiscard]] Cell cell(Float4 point) const {
+        using Int4 = std::int32_t __attribute__((vector_size(16)));
+        const Int4 cell = __builtin_convertvector(lesser((point - lo_) * scale_, most_), Int4);
+        return {static_cast<std::uint32_t>(cell[0]), static_cast<std::uint32_t>(cell[1]),
+                static_cast<std::uint32_t>(cell[2])};
+    }
 
     Float4 lo_, scale_{}, most_;
     /// The bits of the code by the low and the high bits of the cell's number along an axis.
@@ -66,6 +87,11 @@ class CurveOrder {
         const std::uint64_t cell = entries_[i] >> 32 << 32;
         return rest_ == nullptr ? cell : cell | rest_[i];
     }
+    /// True if a cell was divided anew.
+    [[nodiscard]] bool divided() const { return rest_ != nullptr; }
+    /// [i] The cell, and below it the index. The differences of places that lie in other cells are
+    /// those of these in the upper halves.
+    [[nodiscard]] const std::uint64_t* entries() const { return entries_; }
     /// The index of the i-th point.
     [[nodiscard]] std::uint32_t index(std::size_t i) const {
         return static_cast<std::uint32_t>(entries_[i]);

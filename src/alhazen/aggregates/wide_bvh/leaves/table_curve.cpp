@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "alhazen/aggregates/wide_bvh/leaves/lane_triangles.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/base/interruption.h"
 
@@ -118,28 +119,28 @@ class TableCurve::Finder {
             __builtin_prefetch(&view_of(id).corners(id));
         }
     }
-    /// Prefetches the vertices.
+    /// Prefetches the vertices. All lanes are written without a branch on their number.
     void find(const CurveLeaf& leaf, LaneTriangles& found) const {
         const std::uint32_t* const its = indices_ + leaf.first;
+        const std::uint32_t last = leaf.count - 1;
         found.count = leaf.count;
-        std::uint32_t k = 0;
-        for (; k < leaf.count; ++k) {
-            const PrimitiveId id = id_of(its[k]);
-            const MeshView mesh = view_of(id);
+#pragma GCC unroll 8
+        for (std::uint32_t k = 0; k < kBlockWidth; ++k) {
+            const PrimitiveId id = id_of(its[std::min(k, last)]);
+            const auto& mesh = view_of(id);
             const auto& corners = mesh.corners(id);
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t vertex = mesh.first_vertex + corners[c];
-                found.corner[c][k] = vertex;
-                __builtin_prefetch(vertices_ + vertex);
-            }
+            const Float4* const vertices = vertices_ + mesh.first_vertex;
+            const Float4 *const p = vertices + corners[0], *const q = vertices + corners[1],
+                                *const r = vertices + corners[2];
+            found.corner[0][k] = p;
+            found.corner[1][k] = q;
+            found.corner[2][k] = r;
+            __builtin_prefetch(p);
+            __builtin_prefetch(q);
+            __builtin_prefetch(r);
             const bool opaque =
                 kSimple || mesh.same ? mesh.opaque : curve_.writer_.table().is_opaque(id);
             found.ids[k] = {id, opaque, false};
-        }
-        const std::uint32_t unused = curve_.vertices_.unused();
-        for (; k < kBlockWidth; ++k) {
-            for (std::uint32_t c = 0; c < 3; ++c) found.corner[c][k] = unused + c;
-            found.ids[k] = BlockId::none();
         }
     }
 
@@ -147,8 +148,13 @@ class TableCurve::Finder {
     [[nodiscard]] PrimitiveId id_of(std::uint32_t index) const {
         return PrimitiveId{kSimple ? index : curve_.bounded_.id(index)};
     }
-    [[nodiscard]] MeshView view_of(PrimitiveId id) const {
-        return kSimple || !several_ ? only_ : curve_.view(id);
+    /// A reference to a view, or a view.
+    [[nodiscard]] decltype(auto) view_of(PrimitiveId id) const {
+        if constexpr (kSimple) {
+            return (only_);
+        } else {
+            return several_ ? curve_.view(id) : only_;
+        }
     }
 
     const TableCurve& curve_;
@@ -182,18 +188,22 @@ void TableCurve::fill_found(const TriangleFinder& finder, std::span<const CurveL
         if (i < leaves.size()) finder.find(leaves[i], triangles[i % kAhead]);
     };
     TriangleBlock* const blocks = writer_.triangle_blocks();
+    const auto fill = lane_kernels().fill;
     for (std::size_t i = 0; i + 1 < 2 * kAhead; ++i) prefetch(i);
     for (std::size_t i = 0; i + 1 < kAhead; ++i) find(i);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         prefetch(i + 2 * kAhead - 1);
         find(i + kAhead - 1);
         const LaneTriangles& here = triangles[i % kAhead];
-        boxes[i] = {vertices_.box(here).box(), static_cast<std::uint32_t>(first + i), kTriangles};
-        if (blocks == nullptr) {
-            std::copy_n(here.ids, kBlockWidth, writer_.index_blocks()[leaves[i].offset].ids);
-            areas[i] = vertices_.area(here);
-        } else {
-            areas[i] = vertices_.fill(blocks[leaves[i].offset], here);
+        TriangleBlock* const block = blocks == nullptr ? nullptr : blocks + leaves[i].offset;
+        const LaneExtent extent = fill(block, here);
+        set_reference(boxes[i], vertices_.padded(extent.lo, extent.hi),
+                      static_cast<std::uint32_t>(first + i), kTriangles);
+        areas[i] = extent.area;
+        if (block == nullptr) {
+            BlockId* const ids = writer_.index_blocks()[leaves[i].offset].ids;
+            std::copy_n(here.ids, here.count, ids);
+            std::fill(ids + here.count, ids + kBlockWidth, BlockId::none());
         }
     }
 }
