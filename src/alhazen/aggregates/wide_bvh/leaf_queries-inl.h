@@ -71,13 +71,13 @@ struct LeafQuery {
           s_max(r.record.slabs.s_max),
           valid(true) {}
 
-    /// Of a ray that is prepared for nodes, with s_max `end`. `prepare_leaves` does the rest.
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared, float end)
+    /// Of a ray that is prepared for nodes. `prepare_leaves` does the rest.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared)
         : ray(r),
           parameter{s.layout->frame.scale, 0.0},
           scene(s),
           blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
-          s_max(end),
+          s_max(first_lane(spread<1, 2>(prepared.range))),
           valid(true) {
         store_slab_ray(prepared, slabs);
     }
@@ -88,7 +88,7 @@ struct LeafQuery {
         make_triangle_filter_ray(slabs, axes, filter);
     }
 
-    [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
+    [[nodiscard]] static HWY_INLINE decltype(auto) slab_slack(const LocalFrame& frame) {
         return Test::slab_slack(frame);
     }
 

@@ -63,7 +63,7 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
 /// wait for their stores.
 template <std::size_t W>
 HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabLanes& ray,
-                                                 float s_min, float s_max, Lanes<float, W>& entry) {
+                                                 Lanes<float, W>& entry) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
     F near[3], far[3];
@@ -77,9 +77,10 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
     meet(std::integral_constant<std::size_t, 0>());
     meet(std::integral_constant<std::size_t, 1>());
     meet(std::integral_constant<std::size_t, 2>());
-    entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(s_min)));
-    const F exit =
-        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    entry = larger_by_bits(larger_by_bits(near[0], near[1]),
+                           larger_by_bits(near[2], spread<0, W>(ray.range)));
+    const F exit = smaller_by_bits(smaller_by_bits(far[0], far[1]),
+                                   smaller_by_bits(far[2], spread<1, W>(ray.range)));
     return entry <= exit;
 }
 
