@@ -171,18 +171,19 @@ HWY_INLINE NodeRef next_child(const WideNodeOf<W>* nodes, const WideNodeOf<W>& n
             }
         }
     }
-    // Nobody foresees which of two is nearer, unless rays follow each other.
-    if (rest != 0 || !jumps) {
+    if (rest != 0) {
         const std::size_t nearest = stack.push_but_nearest(height, node, entries, met, hit, octant);
         return child_of(node, nearest, jumps);
     }
     HWY_ALIGN float entry[W];
     store_lanes(entries, entry);
-    const bool swap = is_nearer<W>(entry[second], entry[first]);
-    const std::size_t later = swap ? first : second;
-    stack.entry[height] = entry[later];
-    stack.child[height++] = node.child[later].bits();
-    return child_of(node, swap ? second : first, jumps);
+    // Without a jump: nobody foresees which of two is nearer.
+    const auto swap = static_cast<std::size_t>(is_nearer<W>(entry[second], entry[first]));
+    const std::size_t both = (first ^ second) & (std::size_t{0} - swap);
+    const std::size_t farther = second ^ both;
+    stack.entry[height] = entry[farther];
+    stack.child[height++] = node.child[farther].bits();
+    return child_of(node, first ^ both, jumps);
 }
 
 /// Visits the leaves that the ray meets in the subtrees of `ref` and of the stack, nearest first if
