@@ -568,6 +568,34 @@ TEST(LocalFrame, PutsAnySceneIntoTheUnitCubeAndRoundsOutward) {
     }
 }
 
+TEST(LocalFrame, HoldsTheFloatsOfAnySceneExactly) {
+    std::mt19937_64 random(5);
+    for (const Vec3 offset : {Vec3{0, 0, 0}, Vec3{2.4, 15.23, -1.34}, Vec3{1e6, -3.3e5, 7e-3},
+                              Vec3{0.71, 1.9, 4.1}, Vec3{-1.01, 1.07, 1.13}}) {
+        for (const Vec3 size : {Vec3{1, 1, 1}, Vec3{0.01, 2, 0.3}, Vec3{1.7, 1e-4, 1e-9}}) {
+            std::vector<Vec3> points;
+            Box3 all;
+            for (int i = 0; i < 1000; ++i) {
+                Vec3 p;
+                for (int k = 0; k < 3; ++k) {
+                    const double x = offset[k] + size[k] * static_cast<double>(uniform(random));
+                    p[k] = static_cast<double>(static_cast<float>(x));
+                }
+                points.push_back(p);
+                all.include(p);
+            }
+            const LocalFrame frame(all);
+            for (const Vec3& p : points) {
+                const Vec3 q = frame.local(p);
+                ASSERT_EQ(frame.world(q), p);
+                for (int k = 0; k < 3; ++k) {
+                    ASSERT_EQ(static_cast<double>(static_cast<float>(q[k])), q[k]);
+                }
+            }
+        }
+    }
+}
+
 TEST(LocalFrame, RoundsInTheDirectionAskedForByLessThanOneStep) {
     std::mt19937_64 random(4);
     constexpr float kInf = std::numeric_limits<float>::infinity();

@@ -46,7 +46,7 @@ HWY_INLINE bool goes_as_last(const NearbyRay& ray) {
     const F direction = first_three(ray.direction);
     const F turned = abs(direction - load_lanes<4>(last));
     store_lanes(direction, last);
-    return (bits_of(turned <= F(0x1p-4f) * ray.length) & 7) == 7;
+    return (bits_of(turned <= F(0x1p-4f) * ray.length()) & 7) == 7;
 }
 
 /// `near_last`: whether the ray begins near the last one.

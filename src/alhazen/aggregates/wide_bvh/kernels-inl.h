@@ -22,21 +22,21 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE bool is_found(const Hit& hit) {
-    return hit.found();
-}
-HWY_INLINE bool is_found(bool occluded) {
-    return occluded;
-}
-
 /// As trace_one, for every ray.
-template <std::size_t W, class Query, class Result>
-HWY_NOINLINE bool trace_any(const WideBvhScene& scene, const Ray& ray, Result& result) {
-    result = Result{};
+template <std::size_t W, class Query>
+HWY_NOINLINE bool trace_any(const WideBvhScene& scene, const Ray& ray, Hit* hit) {
     const bool follows = begins_near_last(scene.layout->frame, ray);
-    Query query(scene, ray, result);
-    run<W>(query, follows, NoStats{});
-    return is_found(result);
+    if constexpr (Query::kOrdered) {
+        *hit = Hit{};
+        Query query(scene, ray, *hit);
+        run<W>(query, follows, NoStats{});
+        return hit->found();
+    } else {
+        bool occluded = false;
+        Query query(scene, ray, occluded);
+        run<W>(query, follows, NoStats{});
+        return occluded;
+    }
 }
 
 /// The bytes of nodes up to which most of a tree, whose leaves take several times as much, stays in
@@ -52,31 +52,18 @@ HWY_NOINLINE void traverse_far(const WideNodeOf<W>* nodes, NodeRef next, NodeSta
                                     query, NoStats{});
 }
 
-/// Sets `result`, of any value before, to that of the query, and returns whether anything is hit.
-/// Many rays meet no child of the root: they need no query, and are not prepared for leaves.
+/// Visits the children of the root that a query meets, `bits`, and what follows. `Result`: Hit or
+/// bool, as the query finds.
 template <std::size_t W, class Query, class Result>
-HWY_INLINE bool trace_one(const WideBvhScene& scene, const Ray& ray, Result& result) {
+HWY_INLINE void trace_children(const WideBvhScene& scene, const Ray& ray, const SlabLanes& lanes,
+                               const NearbyRay& nearby, std::uint32_t bits,
+                               const Lanes<float, W>& entries, Result& result) {
     const WideBvhLayout& layout = *scene.layout;
-    const NodeRef root = layout.tree.root;
-    SlabLanes lanes;
-    NearbyRay nearby;
-    if (HWY_UNLIKELY(root.is_leaf()) ||
-        HWY_UNLIKELY(
-            !start_nearby(layout.frame, Query::slab_slack(layout.frame), ray, lanes, nearby))) {
-        return trace_any<W, Query>(scene, ray, result);
-    }
     const auto& tree_nodes = nodes_of<W>(layout.tree);
     const WideNodeOf<W>* nodes = tree_nodes.data();
-    const WideNodeOf<W>& node = nodes[root.index()];
-    HWY_ALIGN float range[4];
-    store_lanes(lanes.range, range);
-    Lanes<float, W> entries;
-    const LaneMask<float, W> met = intersect_children(node, lanes, range[0], range[1], entries);
-    const std::uint32_t bits = bits_of(met);
-    result = Result{};
-    if (bits == 0) return false;
+    const WideNodeOf<W>& node = nodes[layout.tree.root.index()];
     // Before the first jump on the children: what follows one that was not foreseen begins late.
-    Query query(scene, ray, result, lanes, range[1]);
+    Query query(scene, ray, result, lanes);
     query.prepare_leaves(ray, nearby);
     Follows follows = begins_near_last(layout.frame, ray) ? Follows::Origin : Follows::Nothing;
     if constexpr (!Query::kOrdered) {
@@ -85,20 +72,73 @@ HWY_INLINE bool trace_one(const WideBvhScene& scene, const Ray& ray, Result& res
     }
     NodeStack<W> stack;
     std::size_t height = 0;
-    const NodeRef next = next_child<Query::kOrdered, false>(
-        nodes, node, stack, height, entries, met, bits, lanes.near.octant, follows, query);
+    const NodeRef next = next_child<Query::kOrdered, false>(nodes, node, stack, height, entries,
+                                                            lanes_of_bits<float, W>(bits), bits,
+                                                            lanes.near.octant, follows, query);
     if constexpr (Query::kOrdered) {
         if (follows == Follows::Nothing && tree_nodes.size() * sizeof(node) > kMostInCaches &&
             !next.is_leaf()) {
             traverse_far(nodes, next, stack, height, query);
             query.finish(NoStats{});
-            return is_found(result);
+            return;
         }
     }
     (void)traverse_from<Query::kOrdered>(nodes, next, stack, height, query.slabs, follows, query,
                                          NoStats{});
     query.finish(NoStats{});
-    return is_found(result);
+}
+
+/// The rest of trace_one for a ray that meets children of the root, `bits`. In a function of its
+/// own, which takes lanes in registers: those that meet none need no stack.
+template <std::size_t W, class Query>
+HWY_NOINLINE bool trace_on(const WideBvhScene& scene, const Ray& ray, Hit* hit, std::uint32_t bits,
+                           std::uint32_t octant, Lanes<float, W> entries, AxesTwice reciprocal,
+                           AxesTwice near_offset, AxesTwice far_offset, Lanes<float, 2> range,
+                           AxisLanes::F origin, AxisLanes::F direction, float reach) {
+    const SlabLanes lanes{reciprocal, near_offset, far_offset, range, kNearRows[octant]};
+    const NearbyRay nearby{origin, direction, reach};
+    // Written so that NaN fails.
+    const bool valid = ray.t_min <= ray.t_max;
+    if constexpr (Query::kOrdered) {
+        *hit = Hit{};
+        if (HWY_UNLIKELY(!valid)) return false;
+        trace_children<W, Query>(scene, ray, lanes, nearby, bits, entries, *hit);
+        return hit->found();
+    } else {
+        if (HWY_UNLIKELY(!valid)) return false;
+        bool occluded = false;
+        trace_children<W, Query>(scene, ray, lanes, nearby, bits, entries, occluded);
+        return occluded;
+    }
+}
+
+/// Sets `hit`, of any value before, for closest hits, and returns whether anything is hit. Many
+/// rays meet no child of the root: they need no query, and are not prepared for leaves.
+template <std::size_t W, class Query>
+HWY_INLINE bool trace_one(const WideBvhScene& scene, const Ray& ray, Hit* hit) {
+    const WideBvhLayout& layout = *scene.layout;
+    const NodeRef root = layout.tree.root;
+    SlabLanes lanes;
+    NearbyRay nearby;
+    if (HWY_UNLIKELY(root.is_leaf()) ||
+        HWY_UNLIKELY(
+            !start_nearby(layout.frame, Query::slab_slack(layout.frame), ray, lanes, nearby))) {
+        return trace_any<W, Query>(scene, ray, hit);
+    }
+    Lanes<float, W> entries;
+    const std::uint32_t bits =
+        bits_of(intersect_children(nodes_of<W>(layout.tree)[root.index()], lanes, entries));
+    if (bits != 0) {
+        // Variables of their own: as members, GCC gives them a place in memory.
+        const AxesTwice reciprocal = lanes.reciprocal, near_offset = lanes.near_offset,
+                        far_offset = lanes.far_offset;
+        const Lanes<float, 2> range = lanes.range;
+        const AxisLanes::F origin = nearby.origin, direction = nearby.direction;
+        return trace_on<W, Query>(scene, ray, hit, bits, lanes.near.octant, entries, reciprocal,
+                                  near_offset, far_offset, range, origin, direction, nearby.reach);
+    }
+    if constexpr (Query::kOrdered) *hit = Hit{};
+    return false;
 }
 
 /// `W` children per node. `Stats` is CountingStats, which adds to the statistics of a query, or
@@ -121,18 +161,18 @@ struct Kernels {
             closest(scene, ray, hit, stats);
             return hit.found();
         } else {
-            return trace_one<W, Closest>(scene, ray, hit);
+            return trace_one<W, Closest>(scene, ray, &hit);
         }
     }
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
-        bool result = false;
         if constexpr (Stats::kCounts) {
+            bool result = false;
             const bool follows = begins_near_last(scene.layout->frame, ray);
             Occluded query(scene, ray, result);
             run<W>(query, follows, policy(stats));
             return result;
         } else {
-            return trace_one<W, Occluded>(scene, ray, result);
+            return trace_one<W, Occluded>(scene, ray, nullptr);
         }
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,

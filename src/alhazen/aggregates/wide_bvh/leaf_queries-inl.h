@@ -13,6 +13,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <array>
 #include <bit>
 #include <type_traits>
 
@@ -73,13 +74,13 @@ struct LeafQuery {
           s_max(r.record.slabs.s_max),
           valid(true) {}
 
-    /// Of a ray that is prepared for nodes, with s_max `end`. `prepare_leaves` does the rest.
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared, float end)
+    /// Of a ray that is prepared for nodes. `prepare_leaves` does the rest.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, const SlabLanes& prepared)
         : ray(r),
           parameter{s.layout->frame.scale, 0.0},
           scene(s),
           blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()),
-          s_max(end),
+          s_max(first_lane(spread<1, 2>(prepared.range))),
           valid(true) {
         store_slab_ray(prepared, slabs);
     }
@@ -90,7 +91,7 @@ struct LeafQuery {
         make_triangle_filter_ray(slabs, axes, filter);
     }
 
-    [[nodiscard]] static HWY_INLINE DistanceBound slab_slack(const LocalFrame& frame) {
+    [[nodiscard]] static HWY_INLINE decltype(auto) slab_slack(const LocalFrame& frame) {
         return Test::slab_slack(frame);
     }
 
@@ -185,9 +186,18 @@ struct LeafQuery {
         }
         return resolve_triangle(ray, axis, corner, hit);
     }
+    /// The exact test with the corners of the mesh, in all cases.
     HWY_NOINLINE bool hits_triangle_scalar(PrimitiveId id, ShapeHit& hit) const {
-        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
-        return intersect_triangle(ray, shear(), a, b, c, hit);
+        const std::array<const Vec3*, 3> vertices = scene.table->corner_positions(triangle(id));
+        const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
+        double corner[3][3];
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) corner[i][k] = (&vertices[i]->x)[axis[k]];
+        }
+        const Verdict verdict = resolve_triangle(ray, axis, corner, hit);
+        if (HWY_LIKELY(verdict != Verdict::Unsure)) return verdict == Verdict::Hit;
+        return intersect_triangle(ray, shear(), *vertices[0], *vertices[1], *vertices[2], hit);
     }
 
   protected:

@@ -3,8 +3,8 @@
 /// of two into [-1, 1], so that scenes that are far from the origin, huge or tiny have the full
 /// resolution of float.
 ///
-/// A scene with the origin near its middle is only scaled: coordinates that are exact in float stay
-/// exact.
+/// Coordinates that are exact in float stay exact: a scene with the origin near its middle is only
+/// scaled, and the center of another has few digits.
 /// Conventions: local = (world - center) * scale, computed in double. The rounding errors of this
 /// and of the exact tests are covered once per ray (`SlabRay`), not in the boxes; boxes cover only
 /// the rounding to float.
@@ -81,14 +81,11 @@ struct LocalFrame {
     /// `box` must be finite or empty, with coordinates up to 1e150.
     explicit LocalFrame(const Box3& box) {
         if (box.empty()) return;
-        center = box.center();
-        double half = 0.5 * max_component(box.size());
-        double far = max_component(abs(center));
-        if (far <= 2.0 * half) {
-            center = {};
-            half = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
-            far = 0;
-        }
+        const bool near = max_component(abs(box.center())) <= max_component(box.size());
+        if (!near) center = short_center(box);
+        const double far = max_component(abs(center));
+        const double half =
+            std::max(max_component(abs(box.lo - center)), max_component(abs(box.hi - center)));
         // Not finer than the rounding of the coordinates.
         const double reach = std::max({half, far * 0x1p-30, 0x1p-500});
         scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
@@ -98,6 +95,21 @@ struct LocalFrame {
         slack = FrameSlack(offset, usual);
     }
 
+    /// About the center of a box that is farther from the origin than it is long. Along an axis
+    /// where it is not, 0: a float less the center would need more digits than it has.
+    [[nodiscard]] static Vec3 short_center(const Box3& box) {
+        const Vec3 middle = box.center(), size = box.size();
+        const double unit =
+            std::max({max_component(size), max_component(abs(middle)) * 0x1p-46, 0x1p-500});
+        const double step = std::ldexp(1.0, std::ilogb(unit) - 4);
+        Vec3 center;
+        for (int k = 0; k < 3; ++k) {
+            if (std::abs(middle[k]) > size[k] + step) {
+                center[k] = std::round(middle[k] / step) * step;
+            }
+        }
+        return center;
+    }
     [[nodiscard]] static bool is_usual(double scale) {
         return scale >= 0x1p-200 && scale <= 0x1p200;
     }

@@ -63,7 +63,7 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
 /// wait for their stores.
 template <std::size_t W>
 HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabLanes& ray,
-                                                 float s_min, float s_max, Lanes<float, W>& entry) {
+                                                 Lanes<float, W>& entry) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
     F near[3], far[3];
@@ -77,9 +77,10 @@ HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, cons
     meet(std::integral_constant<std::size_t, 0>());
     meet(std::integral_constant<std::size_t, 1>());
     meet(std::integral_constant<std::size_t, 2>());
-    entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(s_min)));
-    const F exit =
-        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    entry = larger_by_bits(larger_by_bits(near[0], near[1]),
+                           larger_by_bits(near[2], spread<0, W>(ray.range)));
+    const F exit = smaller_by_bits(smaller_by_bits(far[0], far[1]),
+                                   smaller_by_bits(far[2], spread<1, W>(ray.range)));
     return entry <= exit;
 }
 
@@ -170,18 +171,19 @@ HWY_INLINE NodeRef next_child(const WideNodeOf<W>* nodes, const WideNodeOf<W>& n
             }
         }
     }
-    // Nobody foresees which of two is nearer, unless rays follow each other.
-    if (rest != 0 || !jumps) {
+    if (rest != 0) {
         const std::size_t nearest = stack.push_but_nearest(height, node, entries, met, hit, octant);
         return child_of(node, nearest, jumps);
     }
     HWY_ALIGN float entry[W];
     store_lanes(entries, entry);
-    const bool swap = is_nearer<W>(entry[second], entry[first]);
-    const std::size_t later = swap ? first : second;
-    stack.entry[height] = entry[later];
-    stack.child[height++] = node.child[later].bits();
-    return child_of(node, swap ? second : first, jumps);
+    // Without a jump: nobody foresees which of two is nearer.
+    const auto swap = static_cast<std::size_t>(is_nearer<W>(entry[second], entry[first]));
+    const std::size_t both = (first ^ second) & (std::size_t{0} - swap);
+    const std::size_t farther = second ^ both;
+    stack.entry[height] = entry[farther];
+    stack.child[height++] = node.child[farther].bits();
+    return child_of(node, first ^ both, jumps);
 }
 
 /// Visits the leaves that the ray meets in the subtrees of `ref` and of the stack, nearest first if

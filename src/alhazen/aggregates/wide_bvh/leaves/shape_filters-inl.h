@@ -12,6 +12,7 @@
 
 #include <limits>
 
+#include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
@@ -65,19 +66,6 @@ struct RayAtBlock {
         store_lanes(hi, out.hi);
     }
 };
-/// The lower half of the lanes.
-template <std::size_t N>
-HWY_INLINE Lanes<float, N / 2> lower_half(const Lanes<float, N>& a) {
-    Lanes<float, N / 2> r;
-    if constexpr (kParts<float, N> == 2 * kParts<float, N / 2>) {
-        for (std::size_t i = 0; i < kParts<float, N / 2>; ++i) r.part[i] = a.part[i];
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to divide
-    } else {
-        r.part[0] = hn::LowerHalf(LaneTag<float, N / 2>(), a.part[0]);
-#endif
-    }
-    return r;
-}
 /// Two of them, the second in the upper half of the lanes.
 template <class Block>
 struct TwoRaysAtBlocks {
