@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <queue>
 #include <utility>
 
 #include "alhazen/math/orientation.h"
@@ -11,6 +12,9 @@
 namespace alhazen {
 
 namespace {
+
+/// A distance that rounding may make in regions of the size 1.
+constexpr double kRounding = 0x1p-44;
 
 double product_2d(Vec2 a, Vec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -146,13 +150,15 @@ std::uint32_t ConstrainedTriangulation::split_edge(std::uint32_t h, const Vec2& 
 
 /// The new vertex, or kNone if a triangle would not turn left.
 std::uint32_t ConstrainedTriangulation::split_if_valid(std::uint32_t h, const Vec2& p) {
-    const auto fits = [&](std::uint32_t e) {
-        const Vec2 a = points_[origins_[e]], b = points_[origins_[next(e)]];
-        const Vec2 c = points_[origins_[previous(e)]];
-        return orientation(a, p, c) > 0 && orientation(p, b, c) > 0;
-    };
-    if (!fits(h) || (twins_[h] != kNone && !fits(twins_[h]))) return kNone;
+    if (!fits(h, p) || (twins_[h] != kNone && !fits(twins_[h], p))) return kNone;
     return split_edge(h, p);
+}
+
+/// True if p divides the triangle of the edge `h` into two that turn left.
+bool ConstrainedTriangulation::fits(std::uint32_t h, const Vec2& p) const {
+    const Vec2 a = points_[origins_[h]], b = points_[origins_[next(h)]];
+    const Vec2 c = points_[origins_[previous(h)]];
+    return orientation(a, p, c) > 0 && orientation(p, b, c) > 0;
 }
 
 /// Replaces the edge a-b of (a, b, c) and (b, a, d) by d-c: (d, c, a) and (c, d, b).
@@ -246,14 +252,22 @@ std::uint32_t ConstrainedTriangulation::locate(const Vec2& p) const {
 
 std::uint32_t ConstrainedTriangulation::insert(const Vec2& p, double near) {
     const std::uint32_t t = locate(p);
-    std::uint32_t on = kNone;
+    std::uint32_t on = kNone, beside = kNone;
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const Vec2 a = points_[origins_[h]];
+        const Vec2 a = points_[origins_[h]], b = points_[origins_[next(h)]];
         if (std::abs(a.x - p.x) <= near && std::abs(a.y - p.y) <= near) return origins_[h];
-        if (orientation(a, points_[origins_[next(h)]], p) <= 0) on = h;
+        if (orientation(a, b, p) <= 0) on = h;
+        const double off = product_2d(b - a, p - a), size = dot_2d(b - a, b - a);
+        if (off * off <= near * near * size && twins_[h] != kNone) beside = h;
     }
     std::vector<std::uint32_t> around;
-    const std::uint32_t v = on != kNone ? split_edge(on, p) : split_face(t, p);
+    std::uint32_t v = kNone;
+    if (on != kNone) {
+        v = split_edge(on, p);
+    } else if (beside != kNone) {
+        v = split_if_valid(beside, p);
+    }
+    if (v == kNone) v = split_face(t, p);
     visit_out(v, [&](std::uint32_t h) {
         around.push_back(next(h));
         return false;
@@ -304,7 +318,38 @@ ConstrainedTriangulation::Advance ConstrainedTriangulation::divide(std::uint32_t
                                 : points_[y] + (left / (right + left)) * (points_[x] - points_[y]);
     const std::uint32_t v = split_if_valid(h, p);
     if (v != kNone) return {v, false};
-    return {share <= 0.5 ? x : y, false};
+    const auto is_near = [&](std::uint32_t end) {
+        return std::abs(points_[end].x - p.x) <= kRounding &&
+               std::abs(points_[end].y - p.y) <= kRounding;
+    };
+    for (const std::uint32_t end : {x, y}) {
+        if (is_near(end)) return {end, false};
+    }
+    return {remove_sliver(fits(h, p) ? twins_[h] : h) ? from : kNone, false};
+}
+
+/// Flips the longest edge of a triangle without area. If it is fixed, the two others, which are the
+/// same up to rounding, take its place.
+bool ConstrainedTriangulation::remove_sliver(std::uint32_t h) {
+    const auto length2 = [&](std::uint32_t e) {
+        const Vec2 along = points_[origins_[next(e)]] - points_[origins_[e]];
+        return dot_2d(along, along);
+    };
+    for (const std::uint32_t e : {next(h), previous(h)}) {
+        if (length2(e) > length2(h)) h = e;
+    }
+    if (twins_[h] == kNone) return false;
+    if ((flags_[h] & kFixed) != 0) {
+        const auto border = static_cast<std::uint8_t>(flags_[h] & kBorder);
+        for (const std::uint32_t e : {next(h), previous(h)}) {
+            flags_[e] = static_cast<std::uint8_t>((flags_[e] ^ border) | kFixed);
+            if (twins_[e] != kNone) flags_[twins_[e]] = flags_[e];
+        }
+        flags_[h] = flags_[twins_[h]] = 0;
+    }
+    if (!can_flip(h)) return false;
+    flip(h);
+    return true;
 }
 
 /// Goes from one vertex towards another, up to a vertex on the way or a fixed edge.
@@ -375,18 +420,29 @@ void ConstrainedTriangulation::connect(std::uint32_t from, std::uint32_t to) {
     }
 }
 
-/// Makes borders of the fewest edges between two vertices: so the borders stay closed where
-/// rounding leaves no straight way.
+/// Makes borders of the shortest way along edges: so the borders stay closed where rounding leaves
+/// no straight way.
 void ConstrainedTriangulation::connect_along_edges(std::uint32_t from, std::uint32_t to) {
+    struct Way {
+        double length;
+        std::uint32_t vertex, edge;
+        bool operator<(const Way& other) const { return length > other.length; }
+    };
     std::vector<std::uint32_t> back(points_.size(), kNone);  // [vertex] half-edge towards `to`
-    std::vector<std::uint32_t> open{to};
-    for (std::size_t k = 0; k < open.size() && back[from] == kNone; ++k) {
-        visit_out(open[k], [&](std::uint32_t h) {
+    std::priority_queue<Way> open;
+    open.push({0.0, to, kNone});
+    std::vector<bool> done(points_.size());
+    while (!open.empty() && !done[from]) {
+        const Way way = open.top();
+        open.pop();
+        if (done[way.vertex]) continue;
+        done[way.vertex] = true;
+        back[way.vertex] = way.edge;
+        visit_out(way.vertex, [&](std::uint32_t h) {
             for (const std::uint32_t e : {h, previous(h)}) {
                 const std::uint32_t v = e == h ? origins_[next(h)] : origins_[e];
-                if (v == to || back[v] != kNone) continue;
-                back[v] = e;
-                open.push_back(v);
+                const Vec2 along = points_[v] - points_[way.vertex];
+                if (!done[v]) open.push({way.length + std::sqrt(dot_2d(along, along)), v, e});
             }
             return false;
         });

@@ -8,8 +8,8 @@
 /// of the edges that they cross).
 /// Differs: edges of the given triangulation and borders are fixed: no flip removes them, and where
 /// a border crosses one, both are divided at a common vertex. Signs are exact; an edge is divided
-/// only where all triangles stay counter-clockwise (rounding moves the vertex), else the border
-/// goes through an end of it.
+/// only where all triangles stay counter-clockwise (rounding moves the vertex), else it or the
+/// border goes through the vertex that is there up to rounding.
 /// Conventions: a vertex is shared by all its triangles, so that none lies within an edge. A border
 /// inserted twice is none: borders may overlap, touch and cross.
 /// Complexity: O(triangles) memory; a border takes time for the triangles that it crosses, and a
@@ -29,10 +29,11 @@ class ConstrainedTriangulation {
     using Triangle = std::array<std::uint32_t, 3>;
 
     /// Preconditions: counter-clockwise triangles with area that tile a convex region edge to edge;
-    /// every point is a corner of one; products of coordinates neither over- nor underflow.
+    /// every point is a corner of one; coordinates are of the size 1.
     ConstrainedTriangulation(std::vector<Vec2> points, std::span<const Triangle> triangles);
 
-    /// The vertex at a point of the region, a new one if there is none within `near`.
+    /// The vertex at a point of the region, a new one if there is none within `near`. A new one
+    /// within `near` of an edge inside the region divides it.
     std::uint32_t insert(const Vec2& p, double near = 0.0);
 
     /// Inserts the border from one vertex to another, or takes it away where it is one.
@@ -95,6 +96,8 @@ class ConstrainedTriangulation {
     std::uint32_t split_face(std::uint32_t triangle, const Vec2& p);
     std::uint32_t split_edge(std::uint32_t h, const Vec2& p);
     std::uint32_t split_if_valid(std::uint32_t h, const Vec2& p);
+    [[nodiscard]] bool fits(std::uint32_t h, const Vec2& p) const;
+    bool remove_sliver(std::uint32_t h);
     void flip(std::uint32_t h);
     [[nodiscard]] bool can_flip(std::uint32_t h) const;
     [[nodiscard]] bool should_flip(std::uint32_t h) const;

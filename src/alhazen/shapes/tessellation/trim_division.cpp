@@ -108,8 +108,13 @@ Vec2 speed_in(const BezierPiece& piece, const Vec2& lo, const Vec2& hi) {
 
 class LoopDivider {
   public:
-    LoopDivider(const PieceGrid& grid, double tolerance, std::uint64_t max_chords)
-        : grid_(grid), tolerance_(tolerance), max_chords_(max_chords) {}
+    LoopDivider(const PieceGrid& grid, std::span<const BezierPiece> pieces, double tolerance,
+                std::uint64_t max_chords)
+        : grid_(grid), tolerance_(tolerance), max_chords_(max_chords) {
+        for (const BezierPiece& piece : pieces) {
+            speeds_.push_back(speed_in(piece, piece.lo, piece.hi));
+        }
+    }
 
     /// The points of each loop, the last one before the first. False if there are too many.
     bool divide(std::span<const TrimArc> arcs, std::vector<std::vector<Vec2>>& loops) {
@@ -149,17 +154,21 @@ class LoopDivider {
         const auto [v_first, v_last] = grid_.cells_over(arc.lo.y, arc.hi.y, 1);
         if (bend_of(arc, {1, 1}) == 0.0) return true;
         if ((u_last - u_first) * (v_last - v_first) > kMostPieces) return false;
-        Vec2 speed;
-        for (std::size_t i = u_first; i < u_last; ++i) {
-            for (std::size_t j = v_first; j < v_last; ++j) {
-                const std::uint32_t k = grid_.piece_in(i, j);
-                if (k == PieceGrid::kNoPiece) continue;
-                const Vec2 here = speed_in(grid_.piece(k), arc.lo, arc.hi);
-                speed = {std::max(speed.x, here.x), std::max(speed.y, here.y)};
+        // The speeds of whole pieces, which are known, suffice for most arcs that are flat.
+        for (const bool whole : {true, false}) {
+            Vec2 speed;
+            for (std::size_t i = u_first; i < u_last; ++i) {
+                for (std::size_t j = v_first; j < v_last; ++j) {
+                    const std::uint32_t k = grid_.piece_in(i, j);
+                    if (k == PieceGrid::kNoPiece) continue;
+                    const Vec2 here = whole ? speeds_[k] : speed_in(grid_.piece(k), arc.lo, arc.hi);
+                    speed = {std::max(speed.x, here.x), std::max(speed.y, here.y)};
+                }
             }
+            // The speeds of u and v may have one direction.
+            if (std::sqrt(2.0) * bend_of(arc, speed) <= tolerance_) return true;
         }
-        // The speeds of u and v may have one direction.
-        return std::sqrt(2.0) * bend_of(arc, speed) <= tolerance_;
+        return false;
     }
 
     /// A bound of the distance of the arc from its chord, with u and v scaled: the largest distance
@@ -182,6 +191,7 @@ class LoopDivider {
     const PieceGrid& grid_;
     double tolerance_;
     std::uint64_t max_chords_;
+    std::vector<Vec2> speeds_;  ///< [piece]
     std::vector<Vec2>* points_ = nullptr;
     std::uint64_t count_ = 0;
 };
@@ -268,9 +278,10 @@ class ChordSorter {
 std::optional<TrimDivision> divided_trims(std::span<const TrimLoop> loops,
                                           std::span<const BezierPiece> pieces, double tolerance,
                                           std::uint64_t max_chords) {
+    constexpr std::uint64_t kMostParts = 4;  // on average
     const PieceGrid grid(pieces);
     std::vector<std::vector<Vec2>> points(loops.size());
-    LoopDivider divider(grid, tolerance, max_chords);
+    LoopDivider divider(grid, pieces, tolerance, max_chords);
     if (!divider.divide(trim_arcs(loops, kInfinity), points)) return std::nullopt;
     std::vector<TrimDivision::Part> parts(pieces.size());
     ChordSorter sorter(grid, parts);
@@ -281,7 +292,7 @@ std::optional<TrimDivision> divided_trims(std::span<const TrimLoop> loops,
         loop.push_back(loop.front());
         for (std::size_t k = 0; k + 1 < loop.size(); ++k) {
             sorter.add(loop[k], loop[k + 1]);
-            if (sorter.count() > max_chords) return std::nullopt;
+            if (sorter.count() > kMostParts * max_chords) return std::nullopt;
         }
         polylines.push_back({TrimCurve{.degree = 1, .points = std::move(loop)}});
     }

@@ -31,8 +31,8 @@ struct TrimDivision {
 };
 
 /// The loops of a surface of these pieces, each chord within `tolerance` of its curve in space,
-/// measured along the surface. Nothing if there would be more than `max_chords`. Precondition: no
-/// two pieces overlap.
+/// measured along the surface. Nothing if there would be more than `max_chords`, or four times as
+/// many parts of them. Precondition: no two pieces overlap.
 [[nodiscard]] std::optional<TrimDivision> divided_trims(std::span<const TrimLoop> loops,
                                                         std::span<const BezierPiece> pieces,
                                                         double tolerance, std::uint64_t max_chords);

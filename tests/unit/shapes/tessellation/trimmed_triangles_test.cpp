@@ -15,6 +15,7 @@
 #include "alhazen/shapes/patches/nurbs/trim_arcs.h"
 #include "alhazen/shapes/shape_tessellation.h"
 #include "support/random_shapes.h"
+#include "support/thorough.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -199,7 +200,7 @@ Findings examine(NurbsSurface shape, double tolerance) {
         for (std::size_t k = 0; k < 3; ++k) {
             // Vertices are points of the surface.
             EXPECT_LT(length(mesh.positions[t[k]] - point_of(pieces, in_domain(mesh.uvs[t[k]]))),
-                      1e-12);
+                      1e-11);
             const std::uint32_t from = merged[t[k]], to = merged[t[(k + 1) % 3]];
             ++edges[std::minmax(from, to)];
         }
@@ -233,12 +234,12 @@ Findings examine(NurbsSurface shape, double tolerance) {
     return found;
 }
 
-void expect_good(const Findings& found, double tolerance) {
+void expect_good(const Findings& found, double tolerance, double chords = 1e-3) {
     EXPECT_EQ(found.overused, 0u);
     EXPECT_LE(found.off_surface, tolerance * (1 + 1e-9));
     EXPECT_LE(found.off_loops, tolerance * (1 + 1e-9));
     // The loops that it is measured from are chords of their own.
-    EXPECT_LE(found.off_rim, tolerance + 2e-4);
+    EXPECT_LE(found.off_rim, tolerance + chords);
 }
 
 TEST(TrimmedTriangles, AHoleInAPlaneTakesTheRootOfTheToleranceOfTriangles) {
@@ -322,6 +323,70 @@ TEST(TrimmedTriangles, LoopsAroundAndAcrossThePolesOfABall) {
     }
 }
 
+/// A surface of random degrees, knots (some of several times), points and weights.
+NurbsSurface random_surface(Random& random) {
+    NurbsSurface s;
+    const auto whole = [&](int least, int most) {
+        return static_cast<std::uint32_t>(least + int(random.uniform() * (most - least + 1)));
+    };
+    const double origin = random.uniform() < 0.3 ? 1000.0 : 0.0;
+    const auto knots = [&](std::uint32_t degree) {
+        std::vector<double> list(degree + 1, origin);
+        double at = origin;
+        for (std::uint32_t k = whole(0, 4); k > 0; --k) {
+            at += 0.1 + random.uniform();
+            list.insert(list.end(), whole(1, 2) == 1 ? 1 : whole(1, int(degree)), at);
+        }
+        list.insert(list.end(), degree + 1, at + 0.5 + random.uniform());
+        return list;
+    };
+    s.degree_u = whole(1, 4);
+    s.degree_v = whole(1, 4);
+    s.knots_u = knots(s.degree_u);
+    s.knots_v = knots(s.degree_v);
+    const std::size_t m = s.knots_u.size() - s.degree_u - 1, n = s.knots_v.size() - s.degree_v - 1;
+    const bool rational = random.uniform() < 0.5;
+    for (std::size_t i = 0; i < m; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            s.points.push_back({double(i) + 0.3 * random.uniform(),
+                                double(j) + 0.3 * random.uniform(), 0.7 * random.uniform()});
+            if (rational) s.weights.push_back(0.5 + 1.5 * random.uniform());
+        }
+    }
+    return s;
+}
+
+TEST(TrimmedTriangles, RandomSurfacesAndLoopsHaveNoCracks) {
+    Random random(11);
+    const int cases = testing::thorough() ? 40 : 8;
+    for (int i = 0; i < cases; ++i) {
+        NurbsSurface s = random_surface(random);
+        const Vec2 lo{s.knots_u.front(), s.knots_v.front()}, hi{s.knots_u.back(), s.knots_v.back()};
+        if (i % 2 == 0) s.trims.push_back(rectangle_loop(lo, hi));
+        const int side = 1 + i % 3;
+        for (int k = 0; k < side * side; ++k) {
+            // One closed curve in each cell of a grid.
+            const Vec2 cell{(hi.x - lo.x) / side, (hi.y - lo.y) / side};
+            const Vec2 middle{lo.x + (k % side + 0.5) * cell.x,
+                              lo.y + (double(k / side) + 0.5) * cell.y};
+            TrimCurve curve{.degree = 3};
+            const int spans = 4 + i % 5;
+            for (int p = 0; p < spans + 3; ++p) {
+                const double a = 2 * pi * (p % spans) / spans, r = 0.15 + 0.3 * random.uniform();
+                curve.points.push_back(
+                    p < spans ? middle + r * Vec2{cell.x * std::cos(a), cell.y * std::sin(a)}
+                              : curve.points[static_cast<std::size_t>(p - spans)]);
+            }
+            for (int p = 0; p < spans + 7; ++p) curve.knots.push_back(p);
+            s.trims.push_back({curve});
+        }
+        const double tolerance = i % 3 == 0 ? 0.1 : i % 3 == 1 ? 0.01 : 0.003;
+        // Loops run across kinks.
+        expect_good(examine(s, tolerance), tolerance, 0.05);
+        if (::testing::Test::HasFailure()) FAIL() << "case " << i;
+    }
+}
+
 TEST(TrimmedTriangles, RandomStarsHaveTheirAreaInAPlane) {
     Random random(5);
     for (int i = 0; i < 60; ++i) {
@@ -369,6 +434,39 @@ TEST(TrimmedTriangles, BeyondTheLimitThereAreNone) {
     EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty());
     EXPECT_EQ(append_triangles(AnyShape{sheet}, 1e-3, 100, mesh), kTooManyTriangles);
     EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty());
+}
+
+TEST(TrimmedTriangles, LoopsThatRunAlongOneAnotherCancelThere) {
+    // Divided at other points, along the border of the domain, lines of knots and each other.
+    for (const std::size_t spans : {1u, 2u, 4u}) {
+        const double s = double(spans);
+        NurbsSurface sheet = flat_sheet(
+            spans, {rectangle_loop({0, 0}, {s, s}),
+                    rectangle_loop({0, 0}, {0.5 * s, 0.3 * s}),
+                    polyline_loop({{0.5 * s, 0.2 * s}, {0.8 * s, 0.2 * s}, {0.5 * s, 0.6 * s}}),
+                    circle_loop({0.7 * s, 0.7 * s}, 0.2 * s, 0.2 * s),
+                    {TrimCurve{.degree = 3,
+                               .points = {{0.1 * s, 0.5 * s},
+                                          {0.4 * s, 0.5 * s},
+                                          {0.4 * s, 0.9 * s},
+                                          {0.1 * s, 0.5 * s}}}}});
+        TrimCurve reversed = sheet.trims[3][0];
+        std::reverse(reversed.points.begin(), reversed.points.end());
+        std::reverse(reversed.weights.begin(), reversed.weights.end());
+        sheet.trims.push_back({reversed});
+        sheet.prepare();
+        TriangleMesh mesh;
+        EXPECT_EQ(append_triangles(AnyShape{sheet}, 1e-5, kLimit, mesh), "");
+        double area = 0.0;
+        for (const auto& t : mesh.triangles) {
+            const Vec3 a = mesh.positions[t[0]];
+            area += 0.5 * cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a).z;
+        }
+        // The curve from a point back to it encloses 3/20 of the parallelogram of its control
+        // points; the circle twice is none.
+        const double leaf = 3.0 / 20.0 * 0.3 * 0.4 * s * s;
+        EXPECT_NEAR(area, s * s * (1 - 0.15 - 0.06) - leaf, 1e-4 * s);
+    }
 }
 
 TEST(TrimmedTriangles, OutsideOfAllLoopsThereIsNothing) {
