@@ -47,7 +47,7 @@ class PatchTrimmer {
         : piece_(piece),
           tolerance_(tolerance),
           patch_(std::move(patch)),
-          stretch_(stretch_of(piece.net)),
+          scale_(scale_of(piece.net)),
           triangulation_(triangulation()) {}
 
     /// Inserts the chords. Returns false if there are more than `max_triangles`.
@@ -94,21 +94,23 @@ class PatchTrimmer {
     }
 
   private:
-    /// The factor of v, a power of two, that makes lengths in the plane those of the patch.
-    static double stretch_of(const BezierNet& net) {
+    /// Factors of u and v, powers of two up to 1, that make the plane look like the patch.
+    static Vec2 scale_of(const BezierNet& net) {
         const Vec2 speed = first_derivative_bounds(net);
-        if (!(speed.x > 0.0 && speed.y > 0.0)) return 1.0;
-        return std::exp2(std::clamp(std::round(std::log2(speed.y / speed.x)), -20.0, 20.0));
+        if (!(speed.x > 0.0 && speed.y > 0.0)) return {1, 1};
+        const double ratio = std::clamp(std::round(std::log2(speed.y / speed.x)), -20.0, 20.0);
+        return {std::exp2(std::min(-ratio, 0.0)), std::exp2(std::min(ratio, 0.0))};
     }
     [[nodiscard]] Vec2 local(const Vec2& in_plane) const {
-        return {in_plane.x, in_plane.y / stretch_};
+        return {in_plane.x / scale_.x, in_plane.y / scale_.y};
     }
     /// A point of the domain in the plane of the triangulation; exact on borders.
     [[nodiscard]] Vec2 in_plane(const Vec2& p) const {
         const auto at = [](double x, double lo, double hi) {
             return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
         };
-        return {at(p.x, piece_.lo.x, piece_.hi.x), stretch_ * at(p.y, piece_.lo.y, piece_.hi.y)};
+        return {scale_.x * at(p.x, piece_.lo.x, piece_.hi.x),
+                scale_.y * at(p.y, piece_.lo.y, piece_.hi.y)};
     }
     [[nodiscard]] Vec2 in_domain(const Vec2& p) const {
         const auto at = [](double x, double lo, double hi) {
@@ -117,8 +119,8 @@ class PatchTrimmer {
         return {at(p.x, piece_.lo.x, piece_.hi.x), at(p.y, piece_.lo.y, piece_.hi.y)};
     }
     [[nodiscard]] bool is_on_border(const Vec2& in_plane) const {
-        return in_plane.x == 0.0 || in_plane.x == 1.0 || in_plane.y == 0.0 ||
-               in_plane.y == stretch_;
+        return in_plane.x == 0.0 || in_plane.x == scale_.x || in_plane.y == 0.0 ||
+               in_plane.y == scale_.y;
     }
 
     /// The triangulation of the patch, with vertices of equal parameters merged.
@@ -138,7 +140,7 @@ class PatchTrimmer {
             const PatchVertex& vertex = vertices[k];
             if (kept.empty() || kept.back().u != vertex.u || kept.back().v != vertex.v) {
                 kept.push_back(vertex);
-                points.push_back({vertex.u, stretch_ * vertex.v});
+                points.push_back({scale_.x * vertex.u, scale_.y * vertex.v});
             }
             merged[k] = static_cast<std::uint32_t>(kept.size() - 1);
         }
@@ -173,7 +175,7 @@ class PatchTrimmer {
     const BezierPiece& piece_;
     double tolerance_;
     PatchTriangles patch_;
-    double stretch_;
+    Vec2 scale_;
     ConstrainedTriangulation triangulation_;
 };
 
