@@ -113,9 +113,10 @@ void append_mesh(const TriangleMesh& from, TriangleMesh& mesh) {
 std::string append(const NurbsSurface& shape, double tolerance, std::uint64_t max_triangles,
                    TriangleMesh& mesh) {
     TriangleMesh own;
-    const std::string failed = append<NurbsSurface>(shape, tolerance, max_triangles, own);
-    if (!failed.empty()) return failed;
-    if (shape.region != nullptr && !trim_triangles(shape, tolerance, max_triangles, own)) {
+    if (shape.region == nullptr) {
+        const std::string failed = append<NurbsSurface>(shape, tolerance, max_triangles, own);
+        if (!failed.empty()) return failed;
+    } else if (!append_trimmed_triangles(shape, tolerance, max_triangles, own)) {
         return kTooManyTriangles;
     }
     // Texture coordinates are parameters mapped to the unit square.

@@ -57,4 +57,23 @@ PatchDerivativeBounds second_derivative_bounds(const BezierNet& net) {
             (vv.point + 2.0 * v.weight * first_v + vv.weight * reach) / least_weight};
 }
 
+Vec2 first_derivative_bounds(const BezierNet& net) {
+    const Box3 box = control_box(net);
+    const Vec3 center = box.center();
+    const double reach = 0.5 * length(box.size());
+    double least_weight = std::numeric_limits<double>::infinity();
+    NetDifferences u, v;
+    const int m = net.degree_u, n = net.degree_v;
+    for (int i = 0; i <= m; ++i) {
+        for (int j = 0; j <= n; ++j) {
+            const HomogeneousPoint& p = net.at(i, j);
+            least_weight = std::min(least_weight, p.w);
+            if (i < m) u.include(net.at(i + 1, j) - p, center, m);
+            if (j < n) v.include(net.at(i, j + 1) - p, center, n);
+        }
+    }
+    return {(u.point + u.weight * reach) / least_weight,
+            (v.point + v.weight * reach) / least_weight};
+}
+
 }  // namespace alhazen

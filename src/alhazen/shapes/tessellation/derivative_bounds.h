@@ -1,5 +1,6 @@
 #pragma once
-/// Bounds of the second derivatives of rational Bezier patches, from their control points.
+/// Bounds of the first and second derivatives of rational Bezier patches, from their control
+/// points.
 ///
 /// Source: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", Computer
 /// Aided Geometric Design 3(4), 1986. Differs: rational patches, by the quotient rule about the
@@ -15,5 +16,7 @@ struct PatchDerivativeBounds {
     double uu = 0, uv = 0, vv = 0;
 };
 [[nodiscard]] PatchDerivativeBounds second_derivative_bounds(const BezierNet& net);
+/// Bounds of the derivatives by u and v.
+[[nodiscard]] Vec2 first_derivative_bounds(const BezierNet& net);
 
 }  // namespace alhazen

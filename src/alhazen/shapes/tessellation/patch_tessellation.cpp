@@ -36,16 +36,16 @@ double largest_gap(const std::vector<CurveDivisionPoint>& border) {
     return gap;
 }
 
-/// A vertex in the parameter plane.
-struct PatchVertex {
-    double u, v;
-    Vec3 point;
+/// What the triangles at an edge that is one point look like in the parameter plane.
+enum class AtPoint {
+    Mean,  ///< the point has the parameter of the middle of each triangle
+    Tiles  ///< they tile it
 };
 
 class PatchMesher {
   public:
-    PatchMesher(const BezierPiece& piece, double tolerance)
-        : piece_(piece), net_(piece.net), tolerance_(tolerance) {
+    PatchMesher(const BezierPiece& piece, double tolerance, AtPoint at_point)
+        : piece_(piece), net_(piece.net), tolerance_(tolerance), at_point_(at_point) {
         for (int side = 0; side < 4; ++side) {
             std::array<HomogeneousPoint, kMaxPatchOrder> curve;
             const auto count = static_cast<std::size_t>(boundary_curve(net_, side, curve));
@@ -83,6 +83,8 @@ class PatchMesher {
         }
     }
 
+    [[nodiscard]] PatchTriangles take() { return {std::move(vertices_), std::move(triangles_)}; }
+
   private:
     /// Places the inner lines for a share of the tolerance, and a line near each border, so that
     /// triangles with a long side on the border are flat enough.
@@ -110,8 +112,12 @@ class PatchMesher {
         const double twist = std::max(all.uv, std::numeric_limits<double>::min());
         const auto near_border = [&](std::vector<double>& lines, std::size_t low_side,
                                      std::size_t high_side) {
-            const double low = share * tolerance_ / (twist * largest_gap(borders_[low_side]));
-            const double high = share * tolerance_ / (twist * largest_gap(borders_[high_side]));
+            const auto distance = [&](std::size_t side) {
+                constexpr double kLeast = 0x1p-40;  // distinct from the border
+                const double gap = largest_gap(borders_[side]);
+                return std::max(share * tolerance_ / (twist * gap), kLeast);
+            };
+            const double low = distance(low_side), high = distance(high_side);
             if (low < lines[1]) lines.insert(lines.begin() + 1, low);
             if (high < 1.0 - lines[lines.size() - 2]) lines.insert(lines.end() - 1, 1.0 - high);
         };
@@ -163,9 +169,14 @@ class PatchMesher {
         const bool along_u = side % 2 == 0;
         const double fixed = side == 1 || side == 2 ? 1.0 : 0.0;
         std::vector<std::uint32_t> border;
-        for (const CurveDivisionPoint& p : borders_[static_cast<std::size_t>(side)]) {
-            border.push_back(
-                add(along_u ? p.parameter : fixed, along_u ? fixed : p.parameter, p.point));
+        const auto add_border = [&](double at, const Vec3& point) {
+            border.push_back(add(along_u ? at : fixed, along_u ? fixed : at, point));
+        };
+        const auto& points = borders_[static_cast<std::size_t>(side)];
+        if (is_point(side) && at_point_ == AtPoint::Tiles) {
+            for (const double at : along_u ? u_lines_ : v_lines_) add_border(at, points[0].point);
+        } else {
+            for (const CurveDivisionPoint& p : points) add_border(p.parameter, p.point);
         }
         const auto parameter = [&](std::uint32_t vertex) {
             return along_u ? vertices_[vertex].u : vertices_[vertex].v;
@@ -173,7 +184,7 @@ class PatchMesher {
         // For sides 0 and 1 the patch is to the left of ascending parameters.
         const bool patch_left = side < 2;
         const PatchDerivativeBounds bounds = strip_bounds(side, row.front());
-        if (is_point(side)) return fan(side, row, bounds);
+        if (is_point(side) && at_point_ == AtPoint::Mean) return fan(side, row, bounds);
         std::size_t b = 0, r = 0;
         while (b + 1 < border.size() || r + 1 < row.size()) {
             const bool border_next =
@@ -254,6 +265,7 @@ class PatchMesher {
     const BezierPiece& piece_;
     const BezierNet& net_;
     double tolerance_;
+    AtPoint at_point_;
     std::array<std::vector<CurveDivisionPoint>, 4> borders_;  ///< [side]
     std::vector<double> u_lines_, v_lines_;                   ///< from 0 to 1
     std::vector<PatchVertex> vertices_;
@@ -265,13 +277,20 @@ class PatchMesher {
 
 bool append_triangles(const BezierPiece& piece, double tolerance, std::uint64_t max_triangles,
                       TriangleMesh& mesh) {
-    PatchMesher mesher(piece, tolerance);
+    PatchMesher mesher(piece, tolerance, AtPoint::Mean);
     if (mesh.triangles.size() > max_triangles ||
         !mesher.make(max_triangles - mesh.triangles.size())) {
         return false;
     }
     mesher.append_to(mesh);
     return true;
+}
+
+std::optional<PatchTriangles> parameter_triangles(const BezierPiece& piece, double tolerance,
+                                                  std::uint64_t max_triangles) {
+    PatchMesher mesher(piece, tolerance, AtPoint::Tiles);
+    if (!mesher.make(max_triangles)) return std::nullopt;
+    return mesher.take();
 }
 
 }  // namespace alhazen

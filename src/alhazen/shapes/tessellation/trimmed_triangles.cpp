@@ -2,162 +2,209 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <tuple>
 
-#include "alhazen/math/unit_vector.h"
-#include "alhazen/shapes/patches/nurbs/trim_region.h"
+#include "alhazen/base/interruption.h"
+#include "alhazen/geometry/polygon/constrained_triangulation.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
+#include "alhazen/shapes/tessellation/derivative_bounds.h"
+#include "alhazen/shapes/tessellation/patch_tessellation.h"
+#include "alhazen/shapes/tessellation/trim_division.h"
 
 namespace alhazen {
 
 namespace {
 
-class TriangleTrimmer {
+constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
+
+/// A point of a boundary curve: the same bits for both patches that share it.
+Vec3 boundary_point(const BezierNet& net, int side, double at) {
+    std::array<HomogeneousPoint, kMaxPatchOrder> row;
+    const int count = boundary_curve(net, side, row);
+    for (int last = count - 1; last > 0; --last) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(last); ++k) {
+            row[k] = (1.0 - at) * row[k] + at * row[k + 1];
+        }
+    }
+    return projected(row[0]);
+}
+
+Vec3 surface_point(const BezierNet& net, const Vec2& p) {
+    if (p.y == 0.0) return boundary_point(net, 0, p.x);
+    if (p.y == 1.0) return boundary_point(net, 2, p.x);
+    if (p.x == 0.0) return boundary_point(net, 3, p.y);
+    if (p.x == 1.0) return boundary_point(net, 1, p.y);
+    return point_at(net, p.x, p.y);
+}
+
+/// Cuts the triangles of one patch.
+class PatchTrimmer {
   public:
-    TriangleTrimmer(const NurbsSurface& shape, double tolerance, std::uint64_t max_triangles,
-                    TriangleMesh& mesh)
-        : shape_(shape), tolerance_(tolerance), max_triangles_(max_triangles), mesh_(mesh) {
-        const auto range = [](const std::vector<double>& knots, std::uint32_t degree) {
-            return Interval{knots[degree], knots[knots.size() - degree - 1]};
-        };
-        u_ = range(shape.knots_u, shape.degree_u);
-        v_ = range(shape.knots_v, shape.degree_v);
+    PatchTrimmer(const BezierPiece& piece, PatchTriangles patch, double tolerance)
+        : piece_(piece),
+          tolerance_(tolerance),
+          patch_(std::move(patch)),
+          scale_(scale_of(piece.net)),
+          triangulation_(triangulation()) {}
+
+    /// Inserts the chords. Returns false if there are more than `max_triangles`.
+    bool cut(const TrimDivision::Part& part, std::uint64_t max_triangles) {
+        constexpr double kNear = 0x1p-44;
+        for (const Vec2& p : part.on_border) triangulation_.insert(in_plane(p));
+        for (const auto& [from, to] : part.chords) {
+            const auto vertex = [&](const Vec2& p) {
+                const Vec2 at = in_plane(p);
+                return triangulation_.insert(at, is_on_border(at) ? 0.0 : kNear);
+            };
+            const std::uint32_t begin = vertex(from);
+            triangulation_.connect(begin, vertex(to));
+            interruption_point();
+            if (triangulation_.triangle_count() > max_triangles) return false;
+        }
+        const PatchDerivativeBounds all = second_derivative_bounds(piece_.net);
+        triangulation_.divide_borders(
+            [&](const Vec2& a, const Vec2& b) { return is_long(local(a), local(b), all); });
+        triangulation_.improve();
+        return triangulation_.triangle_count() <= max_triangles;
     }
 
-    bool run() {
-        std::vector<Triangle> open;
-        open.swap(mesh_.triangles);
-        while (!open.empty() && mesh_.triangles.size() <= max_triangles_) {
-            const Triangle triangle = open.back();
-            open.pop_back();
-            using Cover = TrimRegion::Cover;
-            const Cover cover = cover_of(triangle);
-            if (cover == Cover::None) continue;
-            if (cover == Cover::All) {
-                mesh_.triangles.push_back(triangle);
-            } else if (!halve(triangle, open)) {
-                cut(triangle);
-            }
+    void append_to(const TrimRegion& region, TriangleMesh& mesh) const {
+        const std::uint32_t seed = triangulation_.largest();
+        Vec2 middle;
+        for (const std::uint32_t corner : triangulation_.triangle(seed)) {
+            middle = middle + (1.0 / 3.0) * local(triangulation_.points()[corner]);
         }
-        return mesh_.triangles.size() <= max_triangles_;
+        const bool keeps_seed = region.contains(in_domain(middle));
+        std::vector<std::uint32_t> number(triangulation_.points().size(), kUnused);
+        for (auto triangle : triangulation_.triangles(seed, keeps_seed)) {
+            for (std::uint32_t& corner : triangle) {
+                std::uint32_t& own = number[corner];
+                if (own == kUnused) own = append_vertex(corner, mesh);
+                corner = own;
+            }
+            const Vec3& a = mesh.positions[triangle[0]];
+            const Vec3& b = mesh.positions[triangle[1]];
+            const Vec3& c = mesh.positions[triangle[2]];
+            if (a == b || b == c || c == a) continue;
+            mesh.triangles.push_back(triangle);
+        }
     }
 
   private:
-    using Triangle = std::array<std::uint32_t, 3>;
-
-    [[nodiscard]] TrimRegion::Cover cover_of(const Triangle& triangle) const {
-        Vec2 lo = mesh_.uvs[triangle[0]], hi = lo;
-        for (const std::uint32_t corner : triangle) {
-            const Vec2 p = mesh_.uvs[corner];
-            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
-            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
-        }
-        // A loop along the border of the domain keeps the border.
-        const auto within = [](double x, const Interval& range) {
-            const double margin = 0x1p-40 * (range.hi - range.lo);
-            return std::clamp(x, range.lo + margin, range.hi - margin);
+    /// Factors of u and v, powers of two up to 1, that make the plane look like the patch.
+    static Vec2 scale_of(const BezierNet& net) {
+        const Vec2 speed = first_derivative_bounds(net);
+        if (!(speed.x > 0.0 && speed.y > 0.0)) return {1, 1};
+        const double ratio = std::clamp(std::round(std::log2(speed.y / speed.x)), -20.0, 20.0);
+        return {std::exp2(std::min(-ratio, 0.0)), std::exp2(std::min(ratio, 0.0))};
+    }
+    [[nodiscard]] Vec2 local(const Vec2& in_plane) const {
+        return {in_plane.x / scale_.x, in_plane.y / scale_.y};
+    }
+    /// A point of the domain in the plane of the triangulation; exact on borders.
+    [[nodiscard]] Vec2 in_plane(const Vec2& p) const {
+        const auto at = [](double x, double lo, double hi) {
+            return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
         };
-        return shape_.region->cover({within(lo.x, u_), within(lo.y, v_)},
-                                    {within(hi.x, u_), within(hi.y, v_)});
+        return {scale_.x * at(p.x, piece_.lo.x, piece_.hi.x),
+                scale_.y * at(p.y, piece_.lo.y, piece_.hi.y)};
     }
-
-    /// Divides the longest edge; false if it is short.
-    bool halve(const Triangle& triangle, std::vector<Triangle>& open) {
-        std::size_t longest = 0;
-        double most = -1.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double size =
-                length(mesh_.positions[triangle[(k + 1) % 3]] - mesh_.positions[triangle[k]]);
-            if (size > most) most = size, longest = k;
-        }
-        if (most <= tolerance_) return false;
-        const std::uint32_t a = triangle[longest], b = triangle[(longest + 1) % 3];
-        const std::uint32_t c = triangle[(longest + 2) % 3];
-        // The same point from both sides of the edge.
-        const std::uint32_t middle = point_between(std::min(a, b), std::max(a, b), 0.5);
-        open.push_back({a, middle, c});
-        open.push_back({middle, b, c});
-        return true;
-    }
-
-    std::uint32_t point_between(std::uint32_t a, std::uint32_t b, double share) {
-        const auto mean = [&](const auto& values) {
-            return (1.0 - share) * values[a] + share * values[b];
+    [[nodiscard]] Vec2 in_domain(const Vec2& p) const {
+        const auto at = [](double x, double lo, double hi) {
+            return x == 1.0 ? hi : lo + x * (hi - lo);
         };
-        const Vec3 position = mean(mesh_.positions);
-        const Vec3 normal = unit_or(mean(mesh_.normals), mesh_.normals[a]);
-        const Vec2 uv = mean(mesh_.uvs);
-        mesh_.positions.push_back(position);
-        mesh_.normals.push_back(normal);
-        mesh_.uvs.push_back(uv);
-        return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+        return {at(p.x, piece_.lo.x, piece_.hi.x), at(p.y, piece_.lo.y, piece_.hi.y)};
+    }
+    [[nodiscard]] bool is_on_border(const Vec2& in_plane) const {
+        return in_plane.x == 0.0 || in_plane.x == scale_.x || in_plane.y == 0.0 ||
+               in_plane.y == scale_.y;
     }
 
-    [[nodiscard]] bool keeps(const Vec2& uv) const {
-        ShapeHit hit;
-        hit.u = uv.x;
-        hit.v = uv.y;
-        return shape_.keeps(hit);
-    }
-
-    /// Appends the kept part: the kept corners and the points where the region ends along an edge.
-    void cut(const Triangle& triangle) {
-        std::vector<std::uint32_t> kept;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-            const bool from = keeps(mesh_.uvs[a]), to = keeps(mesh_.uvs[b]);
-            if (from) kept.push_back(a);
-            if (from != to) kept.push_back(from ? border(a, b) : border(b, a));
-        }
-        for (std::size_t k = 2; k < kept.size(); ++k) {
-            mesh_.triangles.push_back({kept[0], kept[k - 1], kept[k]});
-        }
-    }
-    /// The border point on the edge from a kept corner to one that is not kept.
-    std::uint32_t border(std::uint32_t in, std::uint32_t out) {
-        double lo = 0.0, hi = 1.0;
-        const Vec2 from = mesh_.uvs[in], to = mesh_.uvs[out];
-        for (int round = 0; round < 40; ++round) {
-            const double middle = 0.5 * (lo + hi);
-            (keeps((1.0 - middle) * from + middle * to) ? lo : hi) = middle;
-        }
-        return point_between(in, out, lo);
-    }
-
-    const NurbsSurface& shape_;
-    double tolerance_;
-    std::uint64_t max_triangles_;
-    TriangleMesh& mesh_;
-    Interval u_, v_;
-};
-
-/// Removes vertices that no triangle uses.
-void drop_unused_vertices(TriangleMesh& mesh) {
-    constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
-    TriangleMesh kept;
-    for (auto& triangle : mesh.triangles) {
-        for (std::uint32_t& corner : triangle) {
-            std::uint32_t& own = number[corner];
-            if (own == kUnused) {
-                own = static_cast<std::uint32_t>(kept.positions.size());
-                kept.positions.push_back(mesh.positions[corner]);
-                kept.normals.push_back(mesh.normals[corner]);
-                kept.uvs.push_back(mesh.uvs[corner]);
+    /// The triangulation of the patch, with vertices of equal parameters merged.
+    ConstrainedTriangulation triangulation() {
+        std::vector<PatchVertex>& vertices = patch_.vertices;
+        std::vector<std::uint32_t> order(vertices.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto key = [&](std::uint32_t k) {
+            return std::tuple(vertices[k].u, vertices[k].v, k);
+        };
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        std::vector<std::uint32_t> merged(vertices.size());
+        std::vector<PatchVertex> kept;
+        std::vector<Vec2> points;
+        for (const std::uint32_t k : order) {
+            const PatchVertex& vertex = vertices[k];
+            if (kept.empty() || kept.back().u != vertex.u || kept.back().v != vertex.v) {
+                kept.push_back(vertex);
+                points.push_back({scale_.x * vertex.u, scale_.y * vertex.v});
             }
-            corner = own;
+            merged[k] = static_cast<std::uint32_t>(kept.size() - 1);
         }
+        vertices = std::move(kept);
+        for (auto& triangle : patch_.triangles) {
+            for (std::uint32_t& corner : triangle) corner = merged[corner];
+        }
+        return {std::move(points), patch_.triangles};
     }
-    mesh.positions = std::move(kept.positions);
-    mesh.normals = std::move(kept.normals);
-    mesh.uvs = std::move(kept.uvs);
-}
+
+    /// True if the chord of a straight part of a border is farther than half of the tolerance from
+    /// the surface. Borders leave the loops by the other half.
+    [[nodiscard]] bool is_long(const Vec2& a, const Vec2& b,
+                               const PatchDerivativeBounds& all) const {
+        const Vec2 lo{std::min(a.x, b.x), std::min(a.y, b.y)};
+        const Vec2 hi{std::max(a.x, b.x), std::max(a.y, b.y)};
+        const double u = hi.x - lo.x, v = hi.y - lo.y, limit = 4.0 * tolerance_;
+        if (all.uu * u * u + 2.0 * all.uv * u * v + all.vv * v * v <= limit) return false;
+        const auto own = second_derivative_bounds(part_of(piece_.net, lo.x, hi.x, lo.y, hi.y));
+        return own.uu + 2.0 * own.uv + own.vv > limit;
+    }
+
+    std::uint32_t append_vertex(std::uint32_t index, TriangleMesh& mesh) const {
+        const Vec2 at = local(triangulation_.points()[index]);
+        mesh.positions.push_back(index < patch_.vertices.size() ? patch_.vertices[index].point
+                                                                : surface_point(piece_.net, at));
+        mesh.normals.push_back(patch_normal(piece_.net, at.x, at.y));
+        mesh.uvs.push_back(in_domain(at));
+        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    }
+
+    const BezierPiece& piece_;
+    double tolerance_;
+    PatchTriangles patch_;
+    Vec2 scale_;
+    ConstrainedTriangulation triangulation_;
+};
 
 }  // namespace
 
-bool trim_triangles(const NurbsSurface& shape, double tolerance, std::uint64_t max_triangles,
-                    TriangleMesh& mesh) {
-    if (!TriangleTrimmer(shape, tolerance, max_triangles, mesh).run()) return false;
-    drop_unused_vertices(mesh);
-    return true;
+bool append_trimmed_triangles(const NurbsSurface& shape, double tolerance,
+                              std::uint64_t max_triangles, TriangleMesh& mesh) {
+    std::vector<BezierPiece> pieces;
+    append_pieces(shape, pieces);
+    const auto division = divided_trims(shape.trims, pieces, 0.5 * tolerance, max_triangles / 16);
+    if (!division) return false;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        interruption_point();
+        const BezierPiece& piece = pieces[k];
+        const TrimDivision::Part& part = division->parts[k];
+        if (part.chords.empty() && part.on_border.empty()) {
+            if (!division->region.contains(0.5 * (piece.lo + piece.hi))) continue;
+            if (!append_triangles(piece, tolerance, max_triangles, mesh)) return false;
+            continue;
+        }
+        if (mesh.triangles.size() > max_triangles) return false;
+        const std::uint64_t most = max_triangles - mesh.triangles.size();
+        auto patch = parameter_triangles(piece, tolerance, most);
+        if (!patch) return false;
+        PatchTrimmer trimmer(piece, std::move(*patch), tolerance);
+        if (!trimmer.cut(part, most)) return false;
+        trimmer.append_to(division->region, mesh);
+    }
+    return mesh.triangles.size() <= max_triangles;
 }
 
 }  // namespace alhazen
