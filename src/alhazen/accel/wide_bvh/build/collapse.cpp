@@ -73,7 +73,6 @@ SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
 
 /// Four numbers of subtrees in lanes.
 struct SpreadLanes {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Float4 cost{kNever, kNever, kNever, kNever};
     Int4 left{1, 1, 1, 1}, chosen;
 
@@ -206,7 +205,6 @@ float visit_priority(const Emitted& child, const FloatBox& box) {
 template <std::size_t Width>
 std::array<std::uint32_t, Width> by_promise(const std::array<float, Width>& promise,
                                             std::uint32_t count) {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     std::array<std::uint32_t, Width> order{}, rank{};
     for (std::size_t first = 0; first < count; first += 4) {
         Float4 here;
@@ -228,7 +226,6 @@ std::array<std::uint32_t, Width> by_promise(const std::array<float, Width>& prom
 /// without branches, as the order is unpredictable.
 template <std::size_t Width>
 void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Float4 along[Width];
     Int4 rank[Width];  // from the farthest
     for (std::uint32_t i = 0; i < used; ++i) {

@@ -26,7 +26,6 @@ using BlockCounts = std::array<std::size_t, kLeafKinds>;
 void sort_few(const std::uint32_t (&indices)[kCurveLeafSize], std::uint32_t* to,
               std::uint32_t count) {
     static_assert(kCurveLeafSize == 8);
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Int4 low, high, rank_low{}, rank_high{};
     std::memcpy(&low, indices, sizeof(low));
     std::memcpy(&high, indices + 4, sizeof(high));

@@ -23,7 +23,6 @@ class CurveGrid {
 
     /// Precondition: the point is in the box.
     [[nodiscard]] std::uint32_t code(Float4 point) const {
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
         const Int4 cell = __builtin_convertvector(lesser((point - lo_) * scale_, most_), Int4);
         std::uint32_t code = 0;
         for (int axis = 0; axis < 3; ++axis) {

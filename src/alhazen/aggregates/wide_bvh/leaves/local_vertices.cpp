@@ -34,8 +34,9 @@ class VertexRounding {
         const PointLanes lanes(p);
         const Double2 z{lanes.z, lanes.z};
         float x0, y0, z0, z1;
-        const bool exact = round(lanes.xy, across_, x0, y0) & round(z, deep_, z0, z1);
-        return Float4{x0, y0, z0, exact ? 1.0f : 0.0f};
+        const bool exact_across = round(lanes.xy, across_, x0, y0);
+        const bool exact_deep = round(z, deep_, z0, z1);
+        return Float4{x0, y0, z0, exact_across && exact_deep ? 1.0f : 0.0f};
     }
 
   private:
