@@ -1,6 +1,8 @@
 #pragma once
 /// 128-bit vector types of the compiler, for code compiled once for all instruction sets.
 
+#include <cstdint>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -8,6 +10,7 @@
 namespace alhazen {
 
 using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Double2 = double __attribute__((vector_size(16)));
 
 /// Lane by lane a < b ? a : b and a > b ? a : b, as one instruction, which compilers generate for

@@ -62,6 +62,26 @@ TEST(Octree, TheFourWalksGoThroughTheSameLeavesInTheSameOrder) {
     EXPECT_GT(walked, 20000u);
 }
 
+TEST(Octree, RaysThatAreThroughInNoTimeAreWalked) {
+    const Boxes boxes = random_boxes(50, 0.1, 3);
+    std::vector<Box3> tiny;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        tiny.push_back({1e-20 * boxes.box(i).lo, 1e-20 * boxes.box(i).hi});
+    }
+    const OctreeCells cells(Boxes(tiny), 4, 1);
+    for (const double speed : {1.0, 1e150, 1e290, 1e308}) {
+        const Ray ray{{-2e-20, 1e-22, 1e-22}, speed * Vec3{1, 0.01, 0.02}};
+        const OctreeRay inside(cells, ray, ray.t_max);
+        ASSERT_FALSE(inside.misses()) << speed;
+        std::size_t leaves = 0;
+        walk_smart(cells, inside, NoStats{}, [&](std::uint32_t, double) {
+            ++leaves;
+            return false;
+        });
+        EXPECT_GT(leaves, 1u) << speed;
+    }
+}
+
 TEST(Octree, AHeapOfSlantedPlatesIsCutOutButNotDividedOverAndOver) {
     const OctreeCells heap(SlantedHeap(2000), 12, 1);
     EXPECT_GT(heap.nodes().size(), 9u);

@@ -208,6 +208,20 @@ TEST(Environments, TexelsThatAreNoRadiancesAreBlackAndCounted) {
     EXPECT_TRUE(black.radiance({0, 0, 1}).is_black());
 }
 
+TEST(Environments, DirectionsThatAreNoNumbersAreHarmless) {
+    const DirectionPicture picture(test_picture());
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kHuge = 1e300;
+    const std::vector<Vec3> directions{{kNan, kNan, kNan}, {kNan, 0, 0},  {0, 0, kNan},
+                                       {0, 0, 0},          {0, 0, kHuge}, {kHuge, kHuge, kHuge}};
+    std::vector<DirectionPicture::Sight> sights(directions.size());
+    picture.find_sights(directions, sights.data());
+    for (const Vec3& direction : directions) {
+        EXPECT_GE(picture.density(direction), 0.0);
+        const Rgb seen = picture.radiance(direction);
+        EXPECT_FALSE(seen.r < 0.0 || seen.g < 0.0 || seen.b < 0.0);
+    }
+}
+
 TEST(Environments, AClearSkyIsBlueAndHazeIsGrey) {
     const Vec3 to_sun = normalize(Vec3{0.3, -0.7, 0.6});
     const ClearSky clear = clear_sky(to_sun, 2, {0.2, 0.2, 0.2});

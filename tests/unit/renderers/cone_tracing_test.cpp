@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/pixel_cones.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
+#include "alhazen/renderers/cone_tracing/cone_tree.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/image_texture.h"
 #include "support/scene_maker.h"
@@ -392,6 +395,23 @@ TEST(ConeTracing, InstancesUnderAnyPlacementAreTheMovedMesh) {
         }
     }
     EXPECT_GT(lit, 1.0);
+}
+
+TEST(ConeTree, HoldsBoxesThatAreHardlyApart) {
+    for (const double apart : {0.0, 1e-320, 1e-310, 1e-300, 1.0}) {
+        std::vector<Box3> boxes;
+        for (int i = 0; i < 9; ++i) boxes.push_back({{i * apart, 0, 0}, {i * apart, 0, 0}});
+        const ConeTree tree(boxes);
+        std::vector<bool> found(boxes.size(), false);
+        std::vector<std::uint32_t> open{0};
+        while (!open.empty()) {
+            const ConeTree::Node& node = tree.node(open.back());
+            open.pop_back();
+            for (std::uint32_t k = 0; k < node.count; ++k) found[tree.item(node.first + k)] = true;
+            if (node.count == 0) open.insert(open.end(), {node.first, node.first + 1});
+        }
+        EXPECT_EQ(std::count(found.begin(), found.end(), true), 9) << apart;
+    }
 }
 
 TEST(PixelCones, HaveTheAreaOfTheirPixels) {

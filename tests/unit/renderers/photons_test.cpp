@@ -156,6 +156,19 @@ TEST(PhotonWalk, AllPowerThatLeavesALightArrives) {
     EXPECT_NEAR(most, least, 1e-5 * most);
 }
 
+TEST(PhotonWalk, PhotonsBeyondTheRangeOfFloatAreNotKept) {
+    for (const double radius : {1e38, 1e39, 1e60}) {
+        SceneMaker maker;
+        maker.add(ball({0, 0, 0}, radius), maker.material(matt({0.5, 0.5, 0.5})));
+        maker.light(PointLight{
+            .position = {0.1 * radius, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+        const Scene scene = maker.compile();
+        const ShotPhotons shot = shot_of(scene, {1000, {PhotonKind::Direct}, 64, 5});
+        EXPECT_EQ(shot.photons.size(), radius < 3e38 ? 1000u : 0u) << radius;
+        EXPECT_LT(usual_radius(PhotonTree(shot.photons), 10), kInfinity);
+    }
+}
+
 TEST(PhotonWalk, ALampOfEachKindSendsItsPower) {
     struct Case {
         const char* name;

@@ -177,7 +177,8 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
     for (int k = 0; k < 3; ++k) {
         const auto a = static_cast<std::size_t>(k);
         const double ticks = ray.moves(k) ? through[a] * per_tick : kNever;
-        const double whole = std::min(ticks, kNever);
+        // Written so that NaN, of a ray that is through in no time, never leaves.
+        const double whole = ticks < kNever ? ticks : kNever;
         step[a] = static_cast<std::int64_t>(whole) >> cells.max_depth() << cells.max_depth();
         const double begin = ray.moves(k) ? (first[a] - ray.enter()) * per_tick : 0.0;
         leaves[a] = whole >= kNever

@@ -262,11 +262,11 @@ struct LeafQuery {
         return false;
     }
     template <class Block, class Stats>
-    HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
-        for (const Block* end = blocks + count; blocks < end; ++blocks) {
+    HWY_INLINE bool visit_shapes(const Block* block, std::uint32_t count, Stats stats) {
+        for (const Block* end = block + count; block < end; ++block) {
             FilteredShapes found;
-            const std::uint32_t rest = filter_shapes<false>(*blocks, found, stats);
-            if (rest != 0 && visit_found(*blocks, found, rest, stats)) return true;
+            const std::uint32_t rest = filter_shapes<false>(*block, found, stats);
+            if (rest != 0 && visit_found(*block, found, rest, stats)) return true;
         }
         return false;
     }
@@ -367,9 +367,9 @@ struct LeafQuery {
     /// Indexed triangles are all tested in double, eight at a time.
     template <class Stats>
     HWY_NOINLINE bool visit_indices(NodeRef ref, Stats stats) {
-        const IndexBlock* blocks = &scene.layout->indices[ref.offset()];
+        const IndexBlock* first = &scene.layout->indices[ref.offset()];
         for (std::uint32_t i = 0; i < ref.count(); ++i) {
-            if (visit_indices(blocks[i], stats)) return true;
+            if (visit_indices(first[i], stats)) return true;
         }
         return false;
     }

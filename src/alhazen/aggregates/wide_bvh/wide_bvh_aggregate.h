@@ -38,7 +38,8 @@ class WideBvhAggregate final : public Aggregate {
 
     /// Refits the tree to the same primitives in other places (aggregates/wide_bvh/refit.h). No
     /// query may run meanwhile. Throws Error(Usage), without effect, if the tree must be built
-    /// anew.
+    /// anew. After any other exception, such as std::bad_alloc, the hits are undefined until a
+    /// refit succeeds.
     RefitReport refit(PrimitiveTable moved);
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }

@@ -11,7 +11,10 @@ namespace {
 constexpr int kConeBins = 16;
 
 int bin_of(double at, double lo, double scale) {
-    return std::clamp(static_cast<int>((at - lo) * scale), 0, kConeBins - 1);
+    const double place = (at - lo) * scale;
+    // Written so that NaN, of boxes too close to be told apart, falls into the first bin.
+    if (!(place > 0.0)) return 0;
+    return place < kConeBins - 1 ? static_cast<int>(place) : kConeBins - 1;
 }
 
 }  // namespace

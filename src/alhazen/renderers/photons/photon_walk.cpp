@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/sampling/random.h"
 
@@ -16,8 +17,15 @@ constexpr std::uint64_t kTimeOfPhoton = std::uint64_t{1} << 31;
 /// Dimension of the kind of the first segment.
 constexpr std::uint64_t kFirstSegment = kTimeOfPhoton + 1;
 
-std::array<float, 3> floats(double x, double y, double z) {
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+std::array<float, 3> floats(const Vec3& p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+/// Whether a photon can be there.
+bool is_in_reach(const Vec3& p) {
+    const auto is_float = [](double x) {
+        return std::abs(x) <= double{std::numeric_limits<float>::max()};
+    };
+    return is_float(p.x) && is_float(p.y) && is_float(p.z);
 }
 
 }  // namespace
@@ -58,10 +66,11 @@ void PhotonWalk::store(PhotonKind kind, const Spectrum& power, const Wavelengths
                        std::vector<Photon>& stored) const {
     if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
     const Vec3& p = next_.point().surface.point;
+    if (!is_in_reach(p)) return;
     // At a partly covering surface eye paths stop with the same probability as the photon.
     const double coverage = next_.point().material->coverage;
     const double share = 1.0 / (coverage * static_cast<double>(shot_.count));
-    stored.push_back({floats(p.x, p.y, p.z), stored_light(share * power, waves),
+    stored.push_back({floats(p), stored_light(share * power, waves),
                       OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
 }
 
@@ -69,10 +78,10 @@ void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const
                                  std::vector<Photon>& stored) const {
     if (!shot_.in_volumes.has(kind) || fluence.is_black() || !fluence.is_finite()) return;
     const VolumePoint& at = next_.volume();
+    if (!is_in_reach(at.point)) return;
     const double share = 1.0 / static_cast<double>(shot_.count);
-    stored.push_back({floats(at.point.x, at.point.y, at.point.z),
-                      stored_light(share * fluence, waves), OctahedralVector(-at.along),
-                      OctahedralVector::none()});
+    stored.push_back({floats(at.point), stored_light(share * fluence, waves),
+                      OctahedralVector(-at.along), OctahedralVector::none()});
 }
 
 bool PhotonWalk::survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,

@@ -75,8 +75,13 @@ void append_guide(const Entries& entries, std::size_t parts, double scale,
     guide.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 
+/// A NaN is before all.
 int index_below(double share, int count) {
-    return std::clamp(static_cast<int>(share * count), 0, count - 1);
+    return share > 0.0 ? std::min(static_cast<int>(share * count), count - 1) : 0;
+}
+/// The index of the texel on the lower side of a place, which is at least -1; a NaN has that of -1.
+int lower_texel(double place) {
+    return place > -1.0 ? static_cast<int>(place) : -1;
 }
 
 }  // namespace
@@ -110,7 +115,6 @@ void DirectionPicture::blacken_bad_texels() {
 Rgb DirectionPicture::texel(int x, int y) const {
     const int w = picture_.width;
     const int around = x < 0 ? x + w : x < w ? x : x - w;
-    // The clamp covers NaN directions.
     return picture_.rgb(std::clamp(around, 0, w - 1), std::clamp(y, 0, picture_.height - 1));
 }
 
@@ -182,7 +186,7 @@ DirectionPicture::Sight DirectionPicture::sight(const Vec3& direction) const {
         &columns_[std::size_t(y) * std::size_t(picture_.width + 1) + std::size_t(x)]);
     // The texels to the left of the place.
     const auto at = [](double share, int size) {
-        return std::clamp(static_cast<int>(share * size - 0.5), 0, size - 1);
+        return std::clamp(lower_texel(share * size - 0.5), 0, size - 1);
     };
     const int left = at(place.column, picture_.width), above = at(place.row, picture_.height);
     __builtin_prefetch(picture_.pixel(left, above));
@@ -213,7 +217,7 @@ Rgb DirectionPicture::radiance_at(const Place& place) const {
     const double y = place.row * picture_.height - 0.5;
     const double left = std::floor(x), above = std::floor(y);
     const double fx = x - left, fy = y - above;
-    const int i = static_cast<int>(left), j = static_cast<int>(above);
+    const int i = lower_texel(left), j = lower_texel(above);
     const bool is_within = i >= 0 && i + 1 < picture_.width && j >= 0 && j + 1 < picture_.height;
     if (is_within && picture_.channels >= 3) {
         const float *p = picture_.pixel(i, j), *q = picture_.pixel(i, j + 1);

@@ -177,7 +177,7 @@ ALHAZEN_KERNEL_TABLE(find_triangle_surfaces_of_target);
 TriangleLanes::TriangleLanes() {
     for (std::size_t lane = 0; lane < kMost; ++lane) {
         corners[1][0][lane] = corners[2][1][lane] = 1.0;
-        for (auto& normal : normals) normal[2][lane] = 1.0;
+        for (auto& own : normals) own[2][lane] = 1.0;
     }
 }
 

@@ -10,8 +10,6 @@
 
 namespace alhazen {
 
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
 /// One side of a split, or a bin, of primitives of several kinds.
 struct KindBox {
     Box4 box;

@@ -47,7 +47,6 @@ struct Box4 {
 
 /// A register whose fourth lane has these bits.
 inline Float4 with_fourth(Float4 v, std::uint32_t bits) {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Int4 lanes;
     std::memcpy(&lanes, &v, sizeof(lanes));
     lanes = (lanes & Int4{-1, -1, -1, 0}) | Int4{0, 0, 0, static_cast<std::int32_t>(bits)};

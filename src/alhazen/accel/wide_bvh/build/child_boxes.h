@@ -43,7 +43,6 @@ struct ChildBoxes {
     /// The fourth lanes are 0.
     void set(std::size_t slot, const BinaryNode& node) {
         static_assert(offsetof(BinaryNode, box) == 0 && offsetof(FloatBox, hi) == 12);
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
         const auto* const first = reinterpret_cast<const std::byte*>(&node);
         Int4 low, high;
         std::memcpy(&low, first, sizeof(low));
@@ -80,7 +79,6 @@ struct ChildBoxes {
 template <std::size_t Width>
 [[nodiscard]] std::array<std::uint32_t, Width> by_promise(const std::array<float, Width>& promise,
                                             std::uint32_t count) {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     std::array<std::uint32_t, Width> order{}, rank{};
     for (std::size_t first = 0; first < count; first += 4) {
         Float4 here;
@@ -102,7 +100,6 @@ template <std::size_t Width>
 /// without branches, as the order is unpredictable.
 template <std::size_t Width>
 void set_order(WideNodeOf<Width>& node, const ChildBoxes<Width>& boxes, std::uint32_t used) {
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Float4 along[Width];
     Int4 rank[Width];  // from the farthest
     for (std::uint32_t i = 0; i < used; ++i) {

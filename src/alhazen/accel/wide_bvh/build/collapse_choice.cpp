@@ -80,7 +80,6 @@ ChoiceOf<8> choose_eight_of_target(const float* l, const float* right, float are
 
 #else
 
-using Int4 = std::int32_t __attribute__((vector_size(16)));
 
 struct Spread {
     Float4 cost{kNever, kNever, kNever, kNever};

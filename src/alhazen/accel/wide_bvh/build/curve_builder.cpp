@@ -30,7 +30,6 @@ using BlockCounts = std::array<std::size_t, kLeafKinds>;
 void sort_few(const std::uint64_t* entries, std::uint32_t* to, std::uint32_t count) {
     static_assert(kCurveLeafSize == 8);
     constexpr int k = std::endian::native == std::endian::little ? 0 : 1;  // the lower half
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     Int4 pairs[4];
     std::memcpy(pairs, entries, sizeof(pairs));
     const Int4 low = __builtin_shufflevector(pairs[0], pairs[1], k, k + 2, k + 4, k + 6);

@@ -52,7 +52,6 @@ class CurveGrid {
         std::uint32_t x, y, z;
     };
     [[nodiscard]] Cell cell(Float4 point) const {
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
         const Int4 cell = __builtin_convertvector(lesser((point - lo_) * scale_, most_), Int4);
         return {static_cast<std::uint32_t>(cell[0]), static_cast<std::uint32_t>(cell[1]),
                 static_cast<std::uint32_t>(cell[2])};
