@@ -206,6 +206,22 @@ TEST(ConeShadows, AnOpenSheetTintsByDistanceInFrontOfTheLightAlone) {
     }
 }
 
+TEST(ConeShadows, SingleSidedSurfacesInOnePlaneDoNotShadeEachOther) {
+    SceneMaker maker;
+    Material material = white();
+    material.double_sided = false;
+    const MaterialId id = maker.material(material);
+    maker.add(sheet(0, true), id);
+    maker.add(sheet(0, true), id);
+    maker.light(DirectionalLight{.to_light = {0, 0.6, 0.8}});
+    const Scene scene = maker.compile();
+    const Camera camera = look_along({0, -3, 1}, {0, 3, -1}, {0, 0, 1}, 0.1, 1.0);
+    Film film(1, 1, {0, 0, 1, 1});
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    EXPECT_TRUE(ConeTracing().render(job, film).complete());
+    EXPECT_NEAR(film.at(0, 0).r, 0.8, 1e-12);
+}
+
 /// Random bodies above each other, with a light above or inside.
 class RandomPile {
   public:

@@ -182,6 +182,8 @@ bool ConeTracer::cross_piece(const ConePiece& piece, const ConeRay& cone, const 
     const bool unseen = is_unseen_from_behind(material);
     // Light that comes to the back of a single-sided surface passes it.
     if (unseen && point.entering) return false;
+    // Parts of an oblique disc at the start lie behind the surfaces beside it.
+    if (unseen && !(piece.z >= start.clear)) return false;
     if (piece.far_side && !source.has_alpha && !unseen) return false;
     met.coverage = material.coverage;
     const Rgb& kt = material.transmissive;
