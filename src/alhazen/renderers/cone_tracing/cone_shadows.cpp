@@ -186,11 +186,11 @@ bool ConeTracer::cross_piece(const ConePiece& piece, const ConeRay& cone, const 
     if (unseen && !(piece.z >= start.clear)) return false;
     if (piece.far_side && !source.has_alpha && !unseen) return false;
     met.coverage = material.coverage;
+    const Crossed before = crossed;
+    if (!material.physical || !material.thin) crossed.last = seen.t;
+    if (!piece.front && start.is_inside(piece.source)) crossed.within = false;
     const Rgb& kt = material.transmissive;
     if (opaque || kt.is_black()) return true;
-    const Crossed before = crossed;
-    crossed.last = seen.t;
-    if (!piece.front && start.is_inside(piece.source)) crossed.within = false;
     const bool by_distance = conventions_.shadow_tint == Tint::PerDistance && !material.physical;
     if (!source.closed) {
         // By distance an open surface tints the way to its front, but not inside a body.
