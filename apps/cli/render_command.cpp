@@ -9,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/cameras/projection.h"
+#include "alhazen/imaging/codecs/half_range.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/reports/antialias_report.h"
@@ -165,6 +166,23 @@ PictureOptions picture_options(const RenderArguments& args, int samples_per_pixe
     return options;
 }
 
+/// Prints how many pixels of an EXR were clamped.
+void tell_beyond_half(const Film& film, const PictureOptions& picture) {
+    const BeyondHalf beyond = beyond_half(film, picture.layers);
+    if (beyond.colors > 0 && !picture.full_float) {
+        tell(
+            "warning: {} pixel{} beyond the largest number of a half, {}, and written as that; "
+            "--full-float keeps them\n",
+            beyond.colors, beyond.colors == 1 ? " is" : "s are", kLargestHalf);
+    }
+    if (beyond.layers > 0) {
+        tell(
+            "warning: {} pixel{} beyond the largest number of a half, {}, in a layer, and written "
+            "as that\n",
+            beyond.layers, beyond.layers == 1 ? " is" : "s are", kLargestHalf);
+    }
+}
+
 void write_pictures(const RenderArguments& args, const RenderOptions& options,
                     const LoadedScene& loaded, const RenderResult& result, double seconds) {
     PictureOptions picture = picture_options(args, options.samples_per_pixel, result, seconds);
@@ -175,6 +193,7 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
         picture.metadata.insert(picture.metadata.end(), names.begin(), names.end());
     }
     write_picture(args.output, result.film, loaded.scene.conventions.film, picture);
+    if (!args.quiet && holds_layers(args.output)) tell_beyond_half(result.film, picture);
     if (options.aovs.empty() || !writes_aov_pictures(args)) return;
     for (const std::string& line :
          write_aov_pictures(args.output, options.aovs, result.layers, common)) {

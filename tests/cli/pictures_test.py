@@ -61,6 +61,21 @@ class Pictures(CommandLineCase):
             result = run("diff", self.path("reference.png"), self.path(name), "--max", str(bound))
             self.assertEqual(result.returncode, 0, name + result.stdout)
 
+    def test_numbers_beyond_half_are_the_largest_half_with_a_warning(self):
+        scene = self.write("bright.alhazen", "alhazen 1\npicture { background = (70000, 1, -1e6) }\n"
+                           "perspective_camera { eye = (0, 0, 5); look_at = (0, 0, 0) }\n"
+                           "ambient_light { color = 1 }\nsphere { center = (0, 0, 99) }\n")
+        half, whole = self.path("half.exr"), self.path("whole.exr")
+        result = run("render", scene, "-o", half, "--size", "2x2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warning: 4 pixels are beyond the largest number of a half, 65504", result.stderr)
+        self.assertIn("--full-float keeps them", result.stderr)
+        self.assertEqual(run("render", scene, "-o", half, "--size", "2x2", "-q").stderr, "")
+        result = run("render", scene, "-o", whole, "--size", "2x2", "--full-float")
+        self.assertNotIn("warning", result.stderr)
+        report = json.loads(run("diff", half, whole, "--json").stdout)
+        self.assertEqual(report["max"], 1e6 - 65504)
+
     def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
         result = self.render("--aov", "all", output="layers.exr")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -8,6 +8,7 @@
 
 #include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/codecs/exr_layers.h"
+#include "alhazen/imaging/codecs/half_range.h"
 #include "alhazen/imaging/codecs/jpeg.h"
 #include "alhazen/imaging/codecs/png.h"
 
@@ -98,6 +99,24 @@ EncodedImage encoded_picture(const Film& film, const FilmConventions& convention
         rows.fill(y, {codes.samples.data() + std::size_t(y) * row_codes, row_codes});
     }
     return codes;
+}
+
+BeyondHalf beyond_half(const Film& film, const FilmLayers* layers) {
+    BeyondHalf result;
+    const std::size_t pixels = film.crop().area();
+    const double* const from = film.data();
+    for (std::size_t i = 0; i < pixels; ++i) {
+        result.colors += is_beyond_half(from[3 * i]) || is_beyond_half(from[3 * i + 1]) ||
+                         is_beyond_half(from[3 * i + 2]);
+    }
+    if (layers == nullptr) return result;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto& channels = layers->channels();
+        result.layers += std::any_of(channels.begin(), channels.end(), [&](const auto& channel) {
+            return channel.type == SampleType::Half && is_beyond_half(channel.values[i]);
+        });
+    }
+    return result;
 }
 
 void write_picture(const std::filesystem::path& path, const Film& film,

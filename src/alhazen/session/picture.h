@@ -1,6 +1,7 @@
 #pragma once
 /// Writes a film to a picture file.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 
@@ -29,6 +30,13 @@ struct PictureOptions {
 /// The codes of the film in a picture of `options.bits` per channel.
 [[nodiscard]] EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
                                            const PictureOptions& options);
+
+/// Pixels with finite numbers beyond the range of half, which an EXR clamps.
+struct BeyondHalf {
+    std::size_t colors = 0;  ///< in the film; clamped unless `full_float`
+    std::size_t layers = 0;  ///< in some layer of type half
+};
+[[nodiscard]] BeyondHalf beyond_half(const Film& film, const FilmLayers* layers);
 
 /// Writes the film in one step. Integer formats are encoded from the film's doubles: truncation is
 /// exact. Throws Error.

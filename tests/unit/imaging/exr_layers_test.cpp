@@ -112,6 +112,26 @@ TEST(ExrLayers, TheLibraryReadsBackEveryChannelWithItsTypeAndPlace) {
     }
 }
 
+TEST(ExrLayers, NumbersBeyondTheRangeOfHalfAreItsLargest) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const bool full_float : {false, true}) {
+        Picture picture;
+        picture.film.set(3, 2, {70000, -1e30, kInfinity});
+        picture.layers.set(picture.albedo, 3, 2, 1e6);
+        picture.layers.set(picture.albedo, 4, 2, -kInfinity);
+        const auto bytes =
+            encode_exr_layers(picture.film, picture.layers, {.full_float = full_float});
+        Bytes stream(bytes);
+        Imf::InputFile file(stream, 0);
+        EXPECT_EQ(read_channel<float>(file, "R", Imf::FLOAT)[0], full_float ? 70000.0f : 65504.0f);
+        EXPECT_EQ(read_channel<float>(file, "G", Imf::FLOAT)[0], full_float ? -1e30f : -65504.0f);
+        EXPECT_EQ(read_channel<float>(file, "B", Imf::FLOAT)[0], kInfinity);
+        const auto albedo = read_channel<float>(file, "albedo.R", Imf::FLOAT);
+        EXPECT_EQ(albedo[0], 65504.0f);
+        EXPECT_EQ(albedo[1], -kInfinity);
+    }
+}
+
 TEST(ExrLayers, FullFloatIsOnlyAboutTheBeauty) {
     const Picture picture;
     const std::vector<std::byte> bytes =

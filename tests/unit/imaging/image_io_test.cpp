@@ -151,6 +151,15 @@ TEST(ImageIo, ExrHalfIsWithinHalfAStepOfHalf) {
     }
 }
 
+TEST(ImageIo, ExrHalfHoldsNumbersBeyondItsRangeAsItsLargest) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Image image = testing::random_image(2, 3, 1, 0, 1, 5);
+    image.samples = {65504.0f, 65519.0f, 65520.0f, -1e30f, kInfinity, -kInfinity};
+    const std::vector<float> largest{65504, 65504, 65504, -65504, kInfinity, -kInfinity};
+    EXPECT_EQ(round_trip("exr", image).samples, largest);
+    EXPECT_EQ(round_trip("exr", image, {.full_float = true}).samples, image.samples);
+}
+
 TEST(ImageIo, ExrCropsAndMetadataAreInTheHeader) {
     ImageWriteOptions options;
     options.metadata = {{"scene", "teapot"}};

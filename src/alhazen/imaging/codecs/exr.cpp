@@ -17,6 +17,7 @@
 
 #include "alhazen/imaging/codecs/exr_header.h"
 #include "alhazen/imaging/codecs/exr_memory.h"
+#include "alhazen/imaging/codecs/half_range.h"
 #include "alhazen/imaging/codecs/image_size.h"
 
 namespace alhazen {
@@ -227,7 +228,9 @@ void write_exr(ExrMemoryOutput& stream, const Image& image, Imf::Header header) 
     if constexpr (std::is_same_v<Sample, float>) {
         samples = image.samples.data();
     } else {
-        halves.assign(image.samples.begin(), image.samples.end());
+        halves.resize(image.samples.size());
+        std::transform(image.samples.begin(), image.samples.end(), halves.begin(),
+                       [](float v) { return Sample(static_cast<float>(within_half(v))); });
         samples = halves.data();
     }
     Imf::FrameBuffer frame;

@@ -27,9 +27,9 @@ void require_exr();
 [[nodiscard]] Image decode_exr(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// Precondition: `image` has valid sizes. Values beyond the range of half become infinite unless
-/// `full_float`. Throws Error (Usage) if the crop is not inside the full frame, or a metadata key
-/// is empty or longer than 255.
+/// Precondition: `image` has valid sizes. Numbers beyond the range of half become the largest half
+/// unless `full_float` (half_range.h). Throws Error (Usage) if the crop is not inside the full
+/// frame, or a metadata key is empty or longer than 255.
 [[nodiscard]] std::vector<std::byte> encode_exr(const Image& image,
                                                 const ImageWriteOptions& options);
 

@@ -12,6 +12,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/exr_memory.h"
+#include "alhazen/imaging/codecs/half_range.h"
 
 namespace alhazen {
 
@@ -33,7 +34,8 @@ class LayersFile {
         for (std::size_t c = 0; c < 3; ++c) {
             std::vector<float> values(crop_.area());
             for (std::size_t i = 0; i < values.size(); ++i) {
-                values[i] = static_cast<float>(from[3 * i + c]);
+                const double value = from[3 * i + c];
+                values[i] = static_cast<float>(full_float ? value : within_half(value));
             }
             if (full_float) {
                 floats_.push_back(std::move(values));
@@ -80,7 +82,7 @@ class LayersFile {
     void add_half(const std::string& name, const std::vector<float>& values) {
         std::vector<Imath::half>& halves = halves_.emplace_back(values.size());
         std::transform(values.begin(), values.end(), halves.begin(),
-                       [](float v) { return Imath::half(v); });
+                       [](float v) { return Imath::half(static_cast<float>(within_half(v))); });
         insert(name, Imf::HALF, halves.data());
     }
 

@@ -4,7 +4,8 @@
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009, "Channel Names" (layers
 /// are prefixes of channel names).
 /// Conventions: one part; scan lines, ZIP-compressed. The beauty image is R, G, B, linear; layers
-/// keep the names and types of their channels. The data window is the film's crop, the display
+/// keep the names and types of their channels. Numbers beyond the range of half become the largest
+/// half (half_range.h). The data window is the film's crop, the display
 /// window its frame. The same numbers give the same bytes.
 
 #include <cstddef>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/math/constants.h"
 
 namespace alhazen {
@@ -79,7 +80,81 @@ bool contains(const ConeScene& scene, const ConeSolid& solid, const Vec3& p) {
     return false;
 }
 
+/// True if the ray meets the box of a node before `t_max`.
+bool meets(const ConeTree::Node& node, const Ray& ray, double t_max) {
+    double from = 0.0, to = t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double place = node.center[axis] - ray.origin[axis];
+        const double d = ray.direction[axis];
+        if (d == 0.0) {
+            if (std::abs(place) > node.half[axis]) return false;
+            continue;
+        }
+        const double middle = place / d, half = node.half[axis] / std::abs(d);
+        from = std::max(from, middle - half);
+        to = std::min(to, middle + half);
+    }
+    return from <= to;
+}
+
+double distance_in_mesh(const ConeSource& source, std::uint32_t part, const Ray& ray) {
+    const TriangleMesh& mesh = *source.mesh.mesh;
+    Ray inner = source.placed ? transformed(source.placement.inner_from_outer, ray) : ray;
+    const RayShear shear(inner.direction);
+    const auto is_met = [&](const ConeTree::Node& node) { return meets(node, inner, inner.t_max); };
+    for_items(*source.tree, is_met, [&](std::uint32_t k) {
+        if (k == part) return;
+        const auto& t = mesh.triangles[k];
+        ShapeHit hit;
+        if (intersect_triangle(inner, shear, mesh.positions[t[0]], mesh.positions[t[1]],
+                               mesh.positions[t[2]], hit)) {
+            inner.t_max = hit.t;
+        }
+    });
+    return inner.t_max;
+}
+
 }  // namespace
+
+bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& point) {
+    const ConeSource& s = scene.sources[source];
+    return contains(scene,
+                    s.kind == ConeSource::Kind::Plane ? ConeSolid{source} : scene.solids[s.solid],
+                    point);
+}
+
+double distance_inside(const ConeScene& scene, std::uint32_t source, std::uint32_t part,
+                       const Ray& ray) {
+    const ConeSource& s = scene.sources[source];
+    switch (s.kind) {
+        case ConeSource::Kind::Sphere: {
+            const Vec3 from = ray.origin - s.point;
+            const double a = length_squared(ray.direction), b = dot(from, ray.direction);
+            const double beyond = s.radius * s.radius - length_squared(from);
+            const double root = std::sqrt(std::max(b * b + a * beyond, 0.0));
+            return std::clamp((root - b) / a, 0.0, ray.t_max);
+        }
+        case ConeSource::Kind::Plane: {
+            const double along = dot(ray.direction, s.normal);
+            const double t = along > 0.0 ? dot(s.point - ray.origin, s.normal) / along : ray.t_max;
+            return std::clamp(t, 0.0, ray.t_max);
+        }
+        case ConeSource::Kind::Faces: {
+            double t = ray.t_max;
+            const ConeSolid& solid = scene.solids[s.solid];
+            for (std::uint32_t k = solid.first_face; k < solid.end_face; ++k) {
+                const ConeFace& face = scene.faces[k];
+                const Vec3 outward = s.inward ? -face.normal : face.normal;
+                const double along = dot(ray.direction, outward);
+                if (along > 0.0) t = std::min(t, dot(face.point - ray.origin, outward) / along);
+            }
+            return std::max(t, 0.0);
+        }
+        case ConeSource::Kind::Mesh:
+            return distance_in_mesh(s, part, ray);
+    }
+    return ray.t_max;
+}
 
 SolidsAround solids_around(const ConeScene& scene, const Vec3& point) {
     struct Around {

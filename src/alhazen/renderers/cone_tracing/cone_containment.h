@@ -1,5 +1,5 @@
 #pragma once
-/// The solids of a cone scene that contain a point.
+/// The solids of a cone scene that contain a point, and where lines leave them.
 ///
 /// Source: Haines, "Point in Polygon Strategies", Graphics Gems IV, 1994 (the odd-even rule, here
 /// of a line and a closed mesh; Haines's convention for edges).
@@ -8,6 +8,7 @@
 /// line).
 
 #include "alhazen/base/inline_vector.h"
+#include "alhazen/geometry/ray.h"
 #include "alhazen/renderers/cone_tracing/cone_scene.h"
 
 namespace alhazen {
@@ -16,5 +17,14 @@ namespace alhazen {
 using SolidsAround = InlineVector<std::uint32_t, 8>;
 
 [[nodiscard]] SolidsAround solids_around(const ConeScene& scene, const Vec3& point);
+
+/// True if the closed source contains the point.
+[[nodiscard]] bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& point);
+
+/// The distance, in lengths of `ray.direction`, at which a ray that starts on the boundary of a
+/// closed source, or inside, next meets the boundary; at most `ray.t_max`. `part`: the face or
+/// triangle on which it starts.
+[[nodiscard]] double distance_inside(const ConeScene& scene, std::uint32_t source,
+                                     std::uint32_t part, const Ray& ray);
 
 }  // namespace alhazen

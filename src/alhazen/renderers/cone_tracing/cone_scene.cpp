@@ -114,7 +114,7 @@ class ConeGatherer {
         source.instance = placed.instance;
         source.visible_to = placed.visible_to;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
-            source.may_pass = material_of(part.material).may_be_passed();
+            set_passage(material_of(part.material), source);
             auto prepared = std::make_shared<AnyShape>(*shape);
             add_shape(std::move(prepared), part, std::move(source));
         } else {
@@ -127,6 +127,11 @@ class ConeGatherer {
         return scene_.materials[static_cast<std::size_t>(id)];
     }
 
+    static void set_passage(const Material& material, ConeSource& source) {
+        source.may_pass = source.may_pass || material.may_be_passed();
+        source.has_alpha = source.has_alpha || material.alpha_mode != AlphaMode::Opaque;
+    }
+
     void add_mesh(const TriangleMesh* mesh, ConeSource source) {
         if (mesh->triangles.empty()) return;
         source.kind = ConeSource::Kind::Mesh;
@@ -134,10 +139,8 @@ class ConeGatherer {
         source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
         source.mesh.material = source.material;
         const std::vector<std::uint32_t>& own = mesh->vertex_materials;
-        source.may_pass = own.empty() ? material_of(source.material).may_be_passed()
-                                      : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
-                                            return material_of(MaterialId{id}).may_be_passed();
-                                        });
+        if (own.empty()) set_passage(material_of(source.material), source);
+        for (const std::uint32_t id : own) set_passage(material_of(MaterialId{id}), source);
         const MeshFacts& facts = facts_of(*mesh);
         source.closed = facts.closed;
         source.inward =
@@ -325,7 +328,7 @@ class ConeGatherer {
     void build_tree() {
         std::vector<Box3> boxes, solid_boxes;
         for (const ConeItem& item : result_.items) {
-            const ConeSource& source = result_.sources[item.source];
+            ConeSource& source = result_.sources[item.source];
             Box3 box;
             if (item.face != ConeItem::kNoFace) {
                 for (const Vec3& p : result_.faces[item.face].vertices) box.include(p);
@@ -343,6 +346,7 @@ class ConeGatherer {
             const bool begins = item.face == ConeItem::kNoFace || result_.solids.empty() ||
                                 result_.solids.back().source != item.source;
             if (begins) {
+                source.solid = static_cast<std::uint32_t>(result_.solids.size());
                 result_.solids.push_back({item.source, item.face, item.face, 0});
                 solid_boxes.push_back(box);
             }

@@ -22,14 +22,16 @@ namespace alhazen {
 struct ConeSource {
     enum class Kind : std::uint8_t { Sphere, Plane, Faces, Mesh };
     Kind kind = Kind::Mesh;
-    bool placed = false;    ///< the placement is not the identity
-    bool closed = false;    ///< a solid: its front hides its back from outside
-    bool inward = false;    ///< corners are clockwise from outside, in world space
-    bool may_pass = false;  ///< a point may be transparent by coverage, or invisible from behind
+    bool placed = false;     ///< the placement is not the identity
+    bool closed = false;     ///< a solid: its front hides its back from outside
+    bool inward = false;     ///< corners are clockwise from outside, in world space
+    bool may_pass = false;   ///< a point may be transparent by coverage, or invisible from behind
+    bool has_alpha = false;  ///< a point may be transparent by coverage
     RayMask visible_to = kAllRays;
     MaterialId material{0};
     std::uint32_t part = 0, instance = 0;
     std::uint32_t surface = 0;  ///< index of the surface; pieces of one surface abut
+    std::uint32_t solid = 0;    ///< of a closed source, but for planes: its index in `solids`
     std::shared_ptr<const AnyShape> shape;
     PlacedMesh mesh;
     Placement placement;

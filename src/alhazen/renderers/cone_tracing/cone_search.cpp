@@ -95,10 +95,11 @@ void ConeSearch::add_plane(std::uint32_t number) {
     const ConeSource& source = scene_.sources[number];
     if (!is_seen(source) || start_->source == number) return;
     const bool front = dot(source.normal, cone_->origin - source.point) > 0.0;
-    if (source.closed && front == start_->is_inside(number)) return;
+    const bool far_side = is_far_side(source, number, front);
+    if (far_side && !source.may_pass) return;
     const ConeCover cover = plane_cover(*cone_, source.point, source.normal, start_->range);
     if (!(cover.share > kLeastCover)) return;
-    add_flat(number, 0, source.point, source.normal, cover, front);
+    add_flat(number, 0, source.point, source.normal, cover, front, far_side);
 }
 
 void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
@@ -133,6 +134,11 @@ void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
     }
     piece.z = piece.front ? near : far;
     add(piece);
+    if (!piece.front || !source.may_pass) return;
+    piece.front = false;
+    piece.far_side = true;
+    piece.z = far;
+    add(piece);
 }
 
 void ConeSearch::add_face(const ConeFace& face) {
@@ -143,8 +149,9 @@ void ConeSearch::add_face(const ConeFace& face) {
                                           start_->range, scratch_, &front);
     if (!(cover.share > kLeastCover)) return;
     front = front != source.inward;
-    if (source.closed && front == start_->is_inside(face.source)) return;
-    add_flat(face.source, face.part, face.point, face.normal, cover, front);
+    const bool far_side = is_far_side(source, face.source, front);
+    if (far_side && !source.may_pass) return;
+    add_flat(face.source, face.part, face.point, face.normal, cover, front, far_side);
 }
 
 void ConeSearch::add_triangle(const Level& level, std::uint32_t triangle) {
@@ -163,17 +170,21 @@ void ConeSearch::add_triangle(const Level& level, std::uint32_t triangle) {
     const ConeCover cover = triangle_cover(corners, range, level.map.converges, front);
     if (!(cover.share > kLeastCover)) return;
     front = front != source.inward;
-    if (source.closed && front == start_->is_inside(level.source)) return;
+    const bool far_side = is_far_side(source, level.source, front);
+    if (far_side && !source.may_pass) return;
     const TrianglePlace place = place_in_triangle(corners, cover.at);
-    add({level.source, triangle, place.z, cover.share, cover.at, place.u, place.v, front});
+    add({level.source, triangle, place.z, cover.share, cover.at, place.u, place.v, front,
+         far_side});
 }
 
 void ConeSearch::add_flat(std::uint32_t source, std::uint32_t part, const Vec3& point,
-                          const Vec3& normal, const ConeCover& cover, bool front) {
+                          const Vec3& normal, const ConeCover& cover, bool front, bool far_side) {
     const Ray ray = line(cover.at);
     const double z = dot(normal, point - ray.origin) / dot(normal, ray.direction);
     if (!std::isfinite(z)) return;
-    add({source, part, z, cover.share, cover.at, 0, 0, front});
+    // Parts of an oblique disc at the start lie on the other side of the face where it starts.
+    if (far_side && start_->source == source && !(z >= start_->clear)) return;
+    add({source, part, z, cover.share, cover.at, 0, 0, front, far_side});
 }
 
 void ConeSearch::add(const ConePiece& piece) {

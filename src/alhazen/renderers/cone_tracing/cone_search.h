@@ -7,8 +7,9 @@
 /// Differs: pieces are computed lazily, once no unvisited box is nearer, so that a fully covered
 /// cone computes no more; the list of objects is kept by the renderer (cone_pieces.h).
 /// Conventions: distances are along the centre line. Pieces at equal distance are sorted by source
-/// and part. Only the side of a solid that faces the cone's start counts: its front from outside,
-/// its back from inside. Threads: used by one thread; memory is reused.
+/// and part. Only the side of a solid that faces the cone's start counts, its front from outside,
+/// its back from inside; of solids that may be passed the far side follows as pieces of its own.
+/// Threads: used by one thread; memory is reused.
 
 #include <vector>
 
@@ -26,6 +27,7 @@ struct ConePiece {
     Vec2 at{0, 0};           ///< its centroid in the disc of the cone
     double u = 0, v = 0;     ///< weights of the second and third corner of a triangle
     bool front = true;       ///< seen from the side of its outward normal
+    bool far_side = false;   ///< of a solid, the side that does not face the cone's start
 };
 
 /// The start of a cone, and what it may see.
@@ -42,6 +44,15 @@ struct ConeStart {
             if (k == s) return true;
         }
         return false;
+    }
+    /// Adds a solid to those that contain the start, as the innermost, or removes it.
+    void set_inside(std::uint32_t solid, bool contains) {
+        SolidsAround around;
+        for (const std::uint32_t k : inside) {
+            if (k != solid) around.push_back(k);
+        }
+        if (contains && !around.full()) around.push_back(solid);
+        inside = around;
     }
 };
 
@@ -76,9 +87,14 @@ class ConeSearch {
     void add_face(const ConeFace& face);
     void add_triangle(const Level& level, std::uint32_t triangle);
     [[nodiscard]] bool is_seen(const ConeSource& source) const;
+    /// True for the side of a solid that does not face the cone's start.
+    [[nodiscard]] bool is_far_side(const ConeSource& source, std::uint32_t number,
+                                   bool front) const {
+        return source.closed && front == start_->is_inside(number);
+    }
     /// Adds a piece in the plane through `point`.
     void add_flat(std::uint32_t source, std::uint32_t part, const Vec3& point, const Vec3& normal,
-                  const ConeCover& cover, bool front);
+                  const ConeCover& cover, bool front, bool far_side);
     void add(const ConePiece& piece);
     /// The line of the cone through a point of its disc; its direction has z = 1.
     [[nodiscard]] Ray line(const Vec2& at) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/core/refraction.h"
@@ -14,33 +13,15 @@ namespace {
 
 /// Largest number of shaded pieces per surface, for the cone of a pixel and for secondary cones.
 constexpr std::size_t kShadedPieces = 4, kShadedPiecesOnward = 1;
-/// A cone that meets more pieces is narrowed.
-constexpr int kMostPieces = 192;
-constexpr int kMostNarrowings = 16;  ///< afterwards the nearest pieces are taken
-/// Pieces of a smaller share of the pixel start no secondary cones.
-constexpr double kLeastConeShare = 1.0 / 256;
-
-/// The cone with half the width.
-ConeRay narrowed(const ConeRay& cone) {
-    return {cone.origin, cone.axis, 0.5 * cone.radius, 0.5 * cone.spread};
-}
 /// The side of a square of the area of a disc of radius 1.
 constexpr double kSideOfDisc = 1.7724538509055159;
+/// Pieces of a smaller share of the pixel start no secondary cones.
+constexpr double kLeastConeShare = 1.0 / 256;
 
 Ray line_of(const ConeRay& cone, const Vec2& at) {
     const Vec3 ex = perpendicular(cone.axis), ey = cross(cone.axis, ex);
     const Vec3 across = at.x * ex + at.y * ey;
     return {cone.origin + cone.radius * across, cone.axis + cone.spread * across};
-}
-
-/// Adds a solid to the solids that contain the start of a cone, or removes it.
-void set_inside(ConeStart& start, std::uint32_t source, bool inside) {
-    SolidsAround around;
-    for (const std::uint32_t k : start.inside) {
-        if (k != source) around.push_back(k);
-    }
-    if (inside && !around.full()) around.push_back(source);
-    start.inside = around;
 }
 
 /// Coordinates of a vector in the plane of two others, relative to them.
@@ -52,69 +33,7 @@ Vec2 in_edges(const Vec3& v, const Vec3& a, const Vec3& b) {
     return {(bb * va - ab * vb) / det, (aa * vb - ab * va) / det};
 }
 
-/// The footprint of a piece as seen from a light, as a row of discs along its longer axis.
-struct FootprintDiscs {
-    static constexpr int kMost = 6;
-    struct Disc {
-        Vec3 center;
-        double radius = 0, weight = 0;
-    };
-    std::array<Disc, kMost> discs;
-    int count = 0;
-};
-
-/// `radius`: of the piece, perpendicular to `ray`; `n`: surface normal at `point`; `most`: limit of
-/// the number of discs.
-FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& ray, double radius,
-                                  const Vec3& to_light, int most) {
-    constexpr double kLeastCosine = 0.02;
-    const double cosine = std::max(std::abs(dot(ray, n)), kLeastCosine);
-    const Vec3 in_plane = ray - dot(ray, n) * n;
-    const double sine = length(in_plane);
-    const Vec3 along = sine > 1e-9 ? in_plane / sine : perpendicular(n);
-    // Semi-axes on the surface, and projected towards the light.
-    const Vec3 a = (radius / cosine) * along, b = radius * cross(n, along);
-    const Vec3 seen_a = a - dot(a, to_light) * to_light, seen_b = b - dot(b, to_light) * to_light;
-    const double angle = 0.5 * std::atan2(2.0 * dot(seen_a, seen_b),
-                                          length_squared(seen_a) - length_squared(seen_b));
-    const double c = std::cos(angle), s = std::sin(angle);
-    const Vec3 axis = c * a + s * b;
-    const double major = length(c * seen_a + s * seen_b), minor = length(c * seen_b - s * seen_a);
-    FootprintDiscs result;
-    const double ratio = major / std::max(minor, 1e-3 * major);
-    result.count = std::clamp(static_cast<int>(ratio + 0.5), 1, most);
-    double sum = 0.0;
-    for (int k = 0; k < result.count; ++k) {
-        FootprintDiscs::Disc& disc = result.discs[static_cast<std::size_t>(k)];
-        const double x = (2.0 * k + 1.0) / result.count - 1.0;
-        disc.center = point + x * axis;
-        disc.weight = std::sqrt(1.0 - x * x);
-        sum += disc.weight;
-    }
-    for (int k = 0; k < result.count; ++k) {
-        FootprintDiscs::Disc& disc = result.discs[static_cast<std::size_t>(k)];
-        disc.weight /= sum;
-        disc.radius = std::sqrt(disc.weight * major * minor);
-    }
-    return result;
-}
-
-/// Radius of a disc with the light's projected area along `direction`; 0 for a point light.
-double radius_of(const Light& light, const Vec3& direction) {
-    const auto* area = std::get_if<AreaLight>(&light);
-    if (area == nullptr) return 0.0;
-    return std::sqrt(area->surface->projected_area(direction) * std::numbers::inv_pi);
-}
-
 }  // namespace
-
-ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius) {
-    const Vec3 offset = center - point;
-    const double d = length(offset);
-    const double spread =
-        d > radius ? radius / std::sqrt((d - radius) * (d + radius)) : kWidestSpread;
-    return {point, offset / d, 0.0, std::min(spread, kWidestSpread)};
-}
 
 ConeTracer::ConeTracer(const RenderJob& job, const ConeScene& scene, bool tables,
                        RayCounters& counters)
@@ -156,13 +75,14 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
     for (const SeenPiece& s : pieces) {
         Seen seen = seen_at(s.piece, cone, path, depth);
         ShadingPoint point;
-        set_point(seen, point);
+        set_point(seen, point, false);
         if (geometry != nullptr && &s == largest) {
             geometry->add_ids(point.surface);
             geometry->add(point, depth_);
         }
         ConePath within = path;
         within.contribution = s.weight * path.contribution;
+        within.start.inside = s.inside;
         const Seen weighted{s.piece, cone, within, seen.ray, seen.t, seen.radius, depth};
         if (watcher_ != nullptr) {
             watcher_->begin_piece(s.piece, s.weight, seen.radius, seen.t, point);
@@ -179,29 +99,46 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
 bool ConeTracer::gather(const ConeRay& cone, const ConePath& path, int depth,
                         std::vector<SeenPiece>& pieces, double& left) {
     pieces.clear();
-    ConeSurfaces surfaces;
+    ConeSurfaces<double> surfaces;
     left = 1.0;
     int count = 0;
+    ConeStart here = path.start;
     search_.begin(cone, path.start);
     ConePiece piece;
     while (search_.next(piece)) {
-        if (++count > kMostPieces) return false;
         const ConeSource& source = geometry_.sources[piece.source];
-        double share = piece.share;
+        SurfaceShare part = share_of(piece);
         if (source.may_pass) {
             ShadingPoint point;
-            set_point(seen_at(piece, cone, path, depth), point);
-            share *= point.material->coverage;
+            set_point(seen_at(piece, cone, path, depth), point, false);
+            const MaterialSample& material = *point.material;
+            const bool unseen = !point.entering && material.single_sided;
+            if (unseen && material.coverage == 0.0) {
+                if (part.two_sided) here.set_inside(piece.source, piece.front);
+                continue;
+            }
+            // Without alpha only the front of a single-sided solid is seen past its back.
+            if (piece.far_side && !source.has_alpha && !is_unseen_from_behind(material)) continue;
+            part.coverage = material.coverage;
         }
-        std::size_t surface = 0;
-        const double weight = surfaces.add(source.surface, piece.front, share, surface);
+        if (++count > kMostPieces) return false;
+        std::size_t layer = 0;
+        const double weight = surfaces.add(part, 0.0, layer);
+        if (weight > 0.0) pieces.push_back({piece, weight, layer, here.inside});
+        // What is seen past a wall of a solid with alpha lies on its other side.
+        if (part.two_sided) here.set_inside(piece.source, piece.front);
         if (!(weight > 0.0)) continue;
-        pieces.push_back({piece, weight, surface});
         left = surfaces.left();
         if (!(left >= kLeastTransmittance)) break;
     }
     thin_out(pieces, depth == 0 ? kShadedPieces : kShadedPiecesOnward);
     return true;
+}
+
+SurfaceShare ConeTracer::share_of(const ConePiece& piece) const {
+    const ConeSource& source = geometry_.sources[piece.source];
+    return {source.surface, piece.front, source.has_alpha, source.closed && source.has_alpha,
+            piece.share};
 }
 
 ConeTracer::Seen ConeTracer::seen_at(const ConePiece& piece, const ConeRay& cone,
@@ -214,7 +151,7 @@ ConeTracer::Seen ConeTracer::seen_at(const ConePiece& piece, const ConeRay& cone
             depth};
 }
 
-void ConeTracer::set_point(const Seen& seen, ShadingPoint& point) {
+void ConeTracer::set_point(const Seen& seen, ShadingPoint& point, bool meets_backs) const {
     const ConeSource& source = geometry_.sources[seen.piece.source];
     const Placement* placement = source.placed ? &source.placement : nullptr;
     if (source.kind == ConeSource::Kind::Mesh) {
@@ -231,8 +168,11 @@ void ConeTracer::set_point(const Seen& seen, ShadingPoint& point) {
     }
     point.surface.part = source.part;
     point.surface.instance = source.instance;
-    complete_shading_point(scene_, seen.ray, {seen.path.inside, kSideOfDisc * seen.radius}, {},
-                           point);
+    complete_shading_point(scene_, seen.ray,
+                           {.inside = seen.path.inside,
+                            .width = kSideOfDisc * seen.radius,
+                            .meets_backs = meets_backs},
+                           {}, point);
 }
 
 Rgb ConeTracer::color_of(const Seen& seen, const ShadingPoint& point) {
@@ -259,111 +199,6 @@ Rgb ConeTracer::direct_light(const Seen& seen, const ShadingPoint& point) {
         sum += fraction * l.intensity * shadow_at(seen, point, i, l, radius_of(light, l.to_light));
     }
     return sum;
-}
-
-Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size_t number,
-                          const LightSample& light, double light_radius) {
-    if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
-    const bool towards = dot(point.geometric, light.to_light) > 0.0;
-    const bool closed = geometry_.sources[seen.piece.source].closed;
-    // True if the shadow cone starts inside the solid.
-    const bool within = closed && seen.piece.front != towards;
-    if (within && seen.piece.front && point.material->transmissive.is_black()) return {};
-    // One disc is sufficient for a small part of a cone.
-    const int most = seen.depth == 0 && seen.piece.share > 0.5 ? FootprintDiscs::kMost : 1;
-    const FootprintDiscs discs =
-        discs_of_footprint(point.surface.point, point.geometric, seen.ray.direction, seen.radius,
-                           light.to_light, most);
-    const bool bounded = std::isfinite(light.distance);
-    const Vec3 place = point.surface.point + (bounded ? light.distance : 0.0) * light.to_light;
-    Rgb sum;
-    for (int k = 0; k < discs.count; ++k) {
-        const FootprintDiscs::Disc& disc = discs.discs[static_cast<std::size_t>(k)];
-        ConeRay cone{disc.center, light.to_light, disc.radius, 0.0};
-        double distance = light.distance;
-        if (bounded) {
-            distance = length(place - disc.center);
-            cone.axis = (place - disc.center) / distance;
-            cone.spread = std::min((light_radius - disc.radius) / distance, kWidestSpread);
-        }
-        ConeStart start = onward(seen, point, cone).start;
-        start.kind = RayKind::Shadow;
-        start.range.z_max = distance;
-        if (closed) set_inside(start, seen.piece.source, within);
-        sum += disc.weight * let_through(cone, start, {number, k, discs.count, disc.weight});
-    }
-    return sum;
-}
-
-Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start, const ConeToLight& to) {
-    ++counters_[RayKind::Shadow].cast;
-    ConeRay part = cone;
-    Rgb left;
-    for (int k = 0; !find_blocked(part, start, left) && k < kMostNarrowings; ++k) {
-        part = narrowed(part);
-    }
-    if (watcher_ != nullptr) watcher_->shadow_cone(part, start.range.z_max, left, to);
-    return left;
-}
-
-bool ConeTracer::find_blocked(const ConeRay& cone, const ConeStart& start, Rgb& result) {
-    ConeSurfaces surfaces;
-    std::array<double, ConeSurfaces::kMost> filled{};
-    std::array<Rgb, ConeSurfaces::kMost> passed{};
-    std::size_t count = 0;
-    int pieces = 0;
-    search_.begin(cone, start);
-    ConePiece piece;
-    while (search_.next(piece)) {
-        if (++pieces > kMostPieces) break;
-        double share = piece.share;
-        const Rgb tint = transmittance_of(piece, cone, start, share);
-        std::size_t k = 0;
-        surfaces.add(geometry_.sources[piece.source].surface, piece.front, share, k);
-        count = std::max(count, k + 1);
-        const double own = std::min(share, 1.0 - filled[k]);
-        filled[k] += own;
-        passed[k] += own * tint;
-        Rgb left{1, 1, 1};
-        for (std::size_t i = 0; i < count; ++i) {
-            const double open = 1.0 - filled[i];
-            left = left * (Rgb{open, open, open} + passed[i]);
-        }
-        if (!(left.max() >= kLeastTransmittance)) break;
-    }
-    counters_[RayKind::Shadow].hit += pieces > 0;
-    Rgb left{1, 1, 1};
-    for (std::size_t i = 0; i < count; ++i) {
-        const double open = std::max(1.0 - filled[i], 0.0);
-        left = left * (Rgb{open, open, open} + passed[i]);
-    }
-    result = left;
-    return pieces <= kMostPieces;
-}
-
-Rgb ConeTracer::transmittance_of(const ConePiece& piece, const ConeRay& cone,
-                                 const ConeStart& start, double& share) {
-    const ConeSource& source = geometry_.sources[piece.source];
-    using Tint = ShadingConventions::ShadowTint;
-    if (scene_.all_opaque || (conventions_.shadow_tint == Tint::Opaque && !source.may_pass)) {
-        return {};
-    }
-    ConePath path;
-    path.start = start;
-    ShadingPoint point;
-    const Seen seen = seen_at(piece, cone, path, 0);
-    set_point(seen, point);
-    share *= point.material->coverage;
-    const Rgb& kt = point.material->transmissive;
-    if (conventions_.shadow_tint == Tint::Opaque || kt.is_black()) return {};
-    if (conventions_.shadow_tint == Tint::PerDistance && !point.material->physical) {
-        if (source.kind != ConeSource::Kind::Sphere) return piece.front ? kt : Rgb{1, 1, 1};
-        const Vec3 from = seen.ray.at(seen.t) - source.point;
-        const double chord = 2.0 * std::abs(dot(from, seen.ray.direction));
-        return power(kt, piece.front ? chord : seen.t);
-    }
-    // Light crosses the boundary of a solid twice.
-    return source.closed && piece.front ? kt * kt : kt;
 }
 
 double ConeTracer::least_contribution() const {
@@ -441,6 +276,11 @@ Rgb ConeTracer::reflected(const Seen& seen, const ShadingPoint& point) {
     ConePath path = onward(seen, point, cone);
     path.start.kind = RayKind::Reflection;
     path.contribution = contribution;
+    // Where a cone may pass the front of a solid it reaches the back from inside.
+    const ConeSource& source = geometry_.sources[seen.piece.source];
+    if (source.closed && source.has_alpha) {
+        path.start.set_inside(seen.piece.source, !seen.piece.front);
+    }
     return kr * trace(cone, path, seen.depth + 1);
 }
 
@@ -490,7 +330,7 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
         keep_absorption(point, closed, tinted_, path.medium, path.inside, path.absorption);
     }
     if (geometry_.sources[source].closed) {
-        set_inside(path.start, source, seen.piece.front);
+        path.start.set_inside(source, seen.piece.front);
     }
     const bool tinted = material.physical || conventions_.refraction_tint ==
                                                  ShadingConventions::RefractionTint::PerEvent;

@@ -56,6 +56,11 @@ class ConeWatcher {
                              const ConeToLight& to) = 0;
 };
 
+/// The cone with half the width.
+[[nodiscard]] inline ConeRay narrowed(const ConeRay& cone) {
+    return {cone.origin, cone.axis, 0.5 * cone.radius, 0.5 * cone.spread};
+}
+
 /// The cone from a point that encloses a spherical light.
 [[nodiscard]] ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius);
 
@@ -69,9 +74,10 @@ class ConeTracer {
     /// `geometry` receives the geometry of the piece with the largest share; may be null.
     [[nodiscard]] Rgb trace(const ConeRay& cone, const ConePath& path, int depth,
                             PixelGeometry* geometry = nullptr);
-    /// Transmittance of a cone towards a light, which lies beyond `start.range.z_max`.
+    /// Transmittance of a cone towards a light, which lies beyond `start.range.z_max`. `from`: the
+    /// path of the cone that met the surface; null: the start is in air.
     [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start,
-                                  const ConeToLight& to = {});
+                                  const ConeToLight& to = {}, const ConePath* from = nullptr);
     /// Sets an observer, or null; it must outlive the calls of `trace`.
     void set_watcher(ConeWatcher* watcher) { watcher_ = watcher; }
 
@@ -89,7 +95,28 @@ class ConeTracer {
 
     [[nodiscard]] Seen seen_at(const ConePiece& piece, const ConeRay& cone, const ConePath& path,
                                int depth) const;
-    void set_point(const Seen& seen, ShadingPoint& point);
+    /// What a piece lets through of the light.
+    struct PieceInShadow {
+        double coverage = 1;
+        Rgb tint;  ///< of the covered points
+    };
+    /// What a shadow cone has crossed.
+    struct Crossed {
+        double last = 0;      ///< distance of the last crossing
+        bool within = false;  ///< none led out of the volume around the start
+    };
+    /// Where a shadow cone leaves the volumes around its start.
+    enum class Way : std::uint8_t { Clear, ToWall, ToLight };
+    struct LightInside {
+        std::uint32_t source;
+        bool inside;
+    };
+    /// A cone that meets more pieces is narrowed.
+    static constexpr int kMostPieces = 192;
+    static constexpr int kMostNarrowings = 16;  ///< afterwards the nearest pieces are taken
+    /// `meets_backs`: as in Arrival.
+    void set_point(const Seen& seen, ShadingPoint& point, bool meets_backs) const;
+    [[nodiscard]] SurfaceShare share_of(const ConePiece& piece) const;
     /// Gathers the visible pieces and the remainder of the cone. False if there are too many.
     [[nodiscard]] bool gather(const ConeRay& cone, const ConePath& path, int depth,
                               std::vector<SeenPiece>& pieces, double& left);
@@ -102,8 +129,16 @@ class ConeTracer {
                                 const LightSample& light, double light_radius);
     [[nodiscard]] Rgb reflected(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmitted(const Seen& seen, const ShadingPoint& point);
-    [[nodiscard]] Rgb transmittance_of(const ConePiece& piece, const ConeRay& cone,
-                                       const ConeStart& start, double& share);
+    void begin_way(const ConeRay& cone, const ConeStart& start, const ConePath* from);
+    /// Sets what a piece lets through. False if it is not met.
+    [[nodiscard]] bool cross_piece(const ConePiece& piece, const ConeRay& cone,
+                                   const ConeStart& start, Crossed& crossed, PieceInShadow& met);
+    [[nodiscard]] double length_behind(const Seen& seen, const ConeSource& source, double t_light,
+                                       bool ends_inside) const;
+    [[nodiscard]] double length_before(const Seen& seen, const ConeSource& source,
+                                       const ConeStart& start) const;
+    [[nodiscard]] bool light_is_inside(std::uint32_t number, const ConeRay& cone,
+                                       const ConeStart& start);
     /// The history of a cone that leaves the piece; the caller sets its kind and contribution.
     [[nodiscard]] ConePath onward(const Seen& seen, const ShadingPoint& point,
                                   const ConeRay& cone) const;
@@ -120,6 +155,9 @@ class ConeTracer {
     const DepthScale depth_;
     ConeSearch search_;
     TintedMedia tinted_;
+    CrossedVolumes volumes_;                   ///< around the start of a shadow cone
+    Way way_ = Way::Clear;                     ///< of the shadow cone
+    std::optional<LightInside> light_inside_;  ///< the last answer, for one shadow cone
     ConeWatcher* watcher_ = nullptr;
     std::optional<Vec3> eye_;                    ///< of the last cone from the eye
     ConePath eye_path_;                          ///< its path

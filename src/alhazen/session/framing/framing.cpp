@@ -192,7 +192,8 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
 }
 
 /// A light at the eye, so that visible points are not in shadow. Without highlights: it would be a
-/// white spot on any glass that faces the eye.
+/// white spot on any glass that faces the eye. Of an orthographic camera it comes from infinity:
+/// what lies behind the picture plane shades what is seen.
 Light headlight(const Camera& camera) {
     const auto at = [](const Vec3& eye) -> Light {
         return PointLight{
