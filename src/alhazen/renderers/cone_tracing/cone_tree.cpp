@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 namespace alhazen {
@@ -12,8 +13,6 @@ constexpr int kConeBins = 16;
 
 int bin_of(double at, double lo, double scale) {
     const double place = (at - lo) * scale;
-    // Written so that NaN, of boxes too close to be told apart, falls into the first bin.
-    if (!(place > 0.0)) return 0;
     return place < kConeBins - 1 ? static_cast<int>(place) : kConeBins - 1;
 }
 
@@ -60,7 +59,9 @@ std::uint32_t ConeTree::divide(std::span<const Box3> boxes, std::uint32_t first,
     const auto begin = order_.begin() + first, last = order_.begin() + end;
     const std::uint32_t half = first + (end - first) / 2;
     if (size > 0.0) {
-        const double scale = kConeBins / size;
+        // Finite, so that a box at the begin of boxes too close to be told apart is in the first
+        // bin.
+        const double scale = std::min(kConeBins / size, std::numeric_limits<double>::max());
         std::array<Box3, kConeBins> box;
         std::array<std::uint32_t, kConeBins> count{};
         for (auto k = begin; k != last; ++k) {
