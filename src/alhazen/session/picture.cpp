@@ -105,9 +105,12 @@ BeyondHalf beyond_half(const Film& film, const FilmLayers* layers) {
     BeyondHalf result;
     const std::size_t pixels = film.crop().area();
     const double* const from = film.data();
+    // As the codec is given them: beyond float they are infinite.
+    const auto is_beyond = [&](std::size_t k) {
+        return is_beyond_half(static_cast<float>(from[k]));
+    };
     for (std::size_t i = 0; i < pixels; ++i) {
-        result.colors += is_beyond_half(from[3 * i]) || is_beyond_half(from[3 * i + 1]) ||
-                         is_beyond_half(from[3 * i + 2]);
+        result.colors += is_beyond(3 * i) || is_beyond(3 * i + 1) || is_beyond(3 * i + 2);
     }
     if (layers == nullptr) return result;
     for (std::size_t i = 0; i < pixels; ++i) {

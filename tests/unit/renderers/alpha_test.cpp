@@ -124,6 +124,29 @@ TEST(Alpha, ShadowsWithoutTintAreCutOutToo) {
     expect_near(lit_behind(wall(1), glass, opaque), {0, 0, 0});
 }
 
+/// Slabs of thickness 1, white and dark in turn, the white one from z on.
+SolidTexture slabs_from(double z) {
+    return {.kind = SolidTexture::Kind::Stripes,
+            .color = {1, 1, 1, 1},
+            .other = {0.125, 0.125, 0.125, 1},
+            .origin = {0, 0, z}};
+}
+
+TEST(Alpha, ShadowsReadSolidTexturesWhereTheyAreCrossed) {
+    Material slabs = glowing({0, 0, 0});
+    slabs.transmissive = {{1, 1, 1}, TextureId{0}};
+    expect_near(lit_behind(wall(1), slabs,
+                           [](SceneDescription& d) {
+                               d.textures.push_back({"", slabs_from(0.5), {}});
+                           }),
+                {1, 1, 1});
+    expect_near(lit_behind(wall(1), slabs,
+                           [](SceneDescription& d) {
+                               d.textures.push_back({"", slabs_from(1.5), {}});
+                           }),
+                {0.125, 0.125, 0.125});
+}
+
 TEST(SingleSided, TheBackIsNotSeenAndLightPassesItFromThere) {
     Material front_only = glowing({1, 0, 0});
     front_only.double_sided = false;

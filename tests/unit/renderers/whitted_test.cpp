@@ -333,6 +333,14 @@ TEST(Whitted, EyeRaysThatStartInsideASolidShowTheColourOfInsides) {
         expect_near(shown(Sphere{.radius = 1}), own);          // in front of the eye
         expect_near(shown(Plane{.normal = {0, 0, -1}}), own);  // not closed
     }
+    // A ray that enters by alpha starts outside.
+    SceneMaker veil;
+    veil.description().conventions.shading.inside_color = inside;
+    Material half = glow;
+    half.alpha_mode = AlphaMode::Blend;
+    half.alpha.value = 0.5;
+    veil.add(Sphere{.radius = 1}, veil.material(half));
+    expect_near(center(veil.compile()), 0.75 * own);
     // Seen in a mirror, the same solid has its own colour.
     SceneMaker maker;
     maker.description().conventions.shading.inside_color = inside;

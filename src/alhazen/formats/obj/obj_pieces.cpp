@@ -20,6 +20,7 @@ std::size_t end_of_line(std::string_view text, std::size_t from) {
         if (newline == std::string_view::npos) return text.size();
         std::size_t last = newline;
         if (last > 0 && text[last - 1] == '\r') --last;
+        while (last > 0 && TextCursor::is_blank(text[last - 1])) --last;
         if (last == 0 || text[last - 1] != '\\') return newline + 1;
         from = newline + 1;
     }

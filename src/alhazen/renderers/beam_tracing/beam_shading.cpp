@@ -187,7 +187,7 @@ Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample&
     double last = 0.0;
     for (const auto& [t, facet] : crossings) {
         set_surface_of(facet, ray, t, between_);
-        const MaterialSample material = material_at(scene_, between_);
+        const MaterialSample material = material_at(scene_, between_, {}, {between_.point, {}, {}});
         const bool leaving = dot(ray.direction, between_.normal) >= 0.0;
         const Crossing crossing = cross(conventions_, between_, material, material, leaving,
                                         is_closed(between_), t - last, volumes_);

@@ -32,6 +32,7 @@ struct SurfaceShare {
     bool layered = false;
     /// Its other side lies behind it or before it: of a closed solid with alpha.
     bool two_sided = false;
+    bool within = false;  ///< the cone starts inside it
     double share = 0;     ///< of the cone
     double coverage = 1;  ///< of the part: the rest lets everything through
 };
@@ -60,6 +61,7 @@ struct SurfaceInCone {
     std::uint32_t surface = 0;
     bool front = true;  ///< the side of the first piece
     bool two_sided = false;
+    bool within = false;
     bool first = true;                         ///< there is no full layer
     std::array<ConeLayer<Light>, 2> layers{};  ///< being filled: of the first side, of the other
     Light before = kAllLight<Light>;           ///< what passes the full layers
@@ -113,6 +115,7 @@ class ConeSurfaces {
             one.surface = part.surface;
             one.front = part.front;
             one.two_sided = part.two_sided;
+            one.within = part.within;
             list_.push_back(one);
         }
         return list_.size() - 1;
@@ -133,7 +136,7 @@ class ConeSurfaces {
                 one.hidden += own;
                 seen += own;
             } else {
-                const Light open = side == 0 ? one.before : one.before * one.layers[0].mean();
+                const Light open = side == 0 ? one.before : one.before * past_first(one);
                 one.passed += own * open * (tint - kAll);
                 const double shown = std::min(own * largest(open), 1.0 - one.hidden);
                 one.hidden += shown;
@@ -149,6 +152,14 @@ class ConeSurfaces {
             one.layers = {};
             one.first = false;
         }
+    }
+    /// What the pieces of the first side leave of the light for the other side.
+    [[nodiscard]] static Light past_first(const One& one) {
+        const ConeLayer<Light>& first = one.layers[0];
+        // Fronts before a start inside are met by the part of an oblique disc that lies beyond them
+        // only; the rest of the cone sees the backs past nothing.
+        if (one.within && one.front) return (1.0 - first.covered) * kAll + first.through;
+        return first.mean();
     }
     static Light at_least_none(const Light& light) {
         if constexpr (std::is_same_v<Light, double>) {

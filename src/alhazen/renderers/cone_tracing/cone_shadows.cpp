@@ -156,7 +156,7 @@ bool ConeTracer::find_blocked(const ConeRay& cone, const ConeStart& start, Rgb& 
         PieceInShadow met;
         if (!cross_piece(piece, cone, start, crossed, met)) continue;
         if (++pieces > kMostPieces) break;
-        SurfaceShare part = share_of(piece);
+        SurfaceShare part = share_of(piece, start);
         part.coverage = met.coverage;
         std::size_t layer = 0;
         surfaces.add(part, met.tint, layer);

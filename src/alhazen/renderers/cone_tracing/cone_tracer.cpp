@@ -107,7 +107,7 @@ bool ConeTracer::gather(const ConeRay& cone, const ConePath& path, int depth,
     ConePiece piece;
     while (search_.next(piece)) {
         const ConeSource& source = geometry_.sources[piece.source];
-        SurfaceShare part = share_of(piece);
+        SurfaceShare part = share_of(piece, path.start);
         if (source.may_pass) {
             ShadingPoint point;
             set_point(seen_at(piece, cone, path, depth), point, false);
@@ -135,9 +135,13 @@ bool ConeTracer::gather(const ConeRay& cone, const ConePath& path, int depth,
     return true;
 }
 
-SurfaceShare ConeTracer::share_of(const ConePiece& piece) const {
+SurfaceShare ConeTracer::share_of(const ConePiece& piece, const ConeStart& start) const {
     const ConeSource& source = geometry_.sources[piece.source];
-    return {source.surface, piece.front, source.has_alpha, source.closed && source.has_alpha,
+    return {source.surface,
+            piece.front,
+            source.has_alpha,
+            source.closed && source.has_alpha,
+            start.is_inside(piece.source),
             piece.share};
 }
 

@@ -116,7 +116,7 @@ class ConeTracer {
     static constexpr int kMostNarrowings = 16;  ///< afterwards the nearest pieces are taken
     /// `meets_backs`: as in Arrival.
     void set_point(const Seen& seen, ShadingPoint& point, bool meets_backs) const;
-    [[nodiscard]] SurfaceShare share_of(const ConePiece& piece) const;
+    [[nodiscard]] SurfaceShare share_of(const ConePiece& piece, const ConeStart& start) const;
     /// Gathers the visible pieces and the remainder of the cone. False if there are too many.
     [[nodiscard]] bool gather(const ConeRay& cone, const ConePath& path, int depth,
                               std::vector<SeenPiece>& pieces, double& left);

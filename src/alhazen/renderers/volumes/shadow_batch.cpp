@@ -153,7 +153,7 @@ const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
     if (!surface.has_extras) {
         if (const MaterialSample* shared = constant_.find(surface.materials[0])) return *shared;
     }
-    own_ = material_at(scene_, surface);
+    own_ = material_at(scene_, surface, {}, {surface.point, {}, {}});
     return own_;
 }
 

@@ -277,8 +277,7 @@ class RecursiveEstimator {
     /// rays, or by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
-        if (seen.depth == 0 && conventions_.inside_color && !point.entering &&
-            scene_.is_closed(point.surface.part)) {
+        if (seen.depth == 0 && conventions_.inside_color && starts_inside(point, met)) {
             met.lit = false;
             met.own = *conventions_.inside_color;
             return;
@@ -304,6 +303,13 @@ class RecursiveEstimator {
         met.filtered = met.filter != Rgb{1, 1, 1};
     }
 
+    /// True if an eye ray that has met this surface first starts inside its solid. Solids that rays
+    /// may enter without a trace, by alpha, are left out.
+    [[nodiscard]] bool starts_inside(const ShadingPoint& point, const MetSurface& met) const {
+        return !point.entering && met.share == Rgb{1, 1, 1} &&
+               scene_.is_closed(point.surface.part) &&
+               !scene_.material_of(point.surface).may_be_passed();
+    }
     /// True if kt acts by distance; exact optics track media by themselves.
     [[nodiscard]] bool tracks_media() const { return conventions_.tints_by_distance() && !optics_; }
 

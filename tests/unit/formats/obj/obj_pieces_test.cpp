@@ -137,9 +137,13 @@ TEST(ObjPieces, TheLimitOfElementsIsThatOfAnyOtherLine) {
 }
 
 TEST(ObjPieces, PiecesEndWhereLinesAreNotContinued) {
-    for (const std::string end : {"\n", "\r\n"}) {
+    for (const auto& [blanks, end] : {std::pair<std::string, std::string>{"", "\n"},
+                                      {"", "\r\n"},
+                                      {"  \t", "\n"},
+                                      {" ", "\r\n"}}) {
+        const std::string next = "\\" + blanks + end;
         std::string text;
-        while (text.size() < 1'000'000) text += "f 1 \\" + end + "2 \\" + end + "3" + end;
+        while (text.size() < 1'000'000) text += "f 1 " + next + "2 " + next + "3" + end;
         std::size_t bytes = 0;
         const std::vector<std::string_view> pieces = obj_pieces(text);
         EXPECT_GT(pieces.size(), 5u);
