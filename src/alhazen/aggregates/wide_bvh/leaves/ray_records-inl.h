@@ -80,7 +80,8 @@ class RayRecords {
 };
 
 template <class Place>
-HWY_INLINE void RayRecords::store_eight(const F* rows, Place&& place) {
+HWY_INLINE void RayRecords::store_eight([[maybe_unused]] const F* rows,
+                                        [[maybe_unused]] Place&& place) {
 #if HWY_CAP_GE512
     const hn::CappedTag<float, 8> eight;
     hn::Vec<hn::CappedTag<float, 16>> columns[8];
