@@ -1,6 +1,7 @@
 #include "alhazen/primitives/triangle_run.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "alhazen/simd/dispatch.h"
 
@@ -15,6 +16,28 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
+
+/// Includes the boxes of the triangles in `all`; `corner(i)`: position i, as `Box` takes it.
+/// Returns false if a triangle has no box.
+template <class Box, class Corner>
+HWY_INLINE bool include_triangles(const TriangleRun& run, const Corner& corner, Box& all) {
+    constexpr std::size_t kAhead = 8;  // triangles prefetched
+    bool complete = true;
+    for (std::size_t i = 0; i < run.count; ++i) {
+        const auto& ahead = run.triangles[std::min(i + kAhead, run.count - 1)];
+        __builtin_prefetch(run.positions + ahead[0]);
+        __builtin_prefetch(run.positions + ahead[1]);
+        __builtin_prefetch(run.positions + ahead[2]);
+        const auto& corners = run.triangles[i];
+        Box one;
+        if (one.set(corner(corners[0]), corner(corners[1]), corner(corners[2]))) {
+            all.include(one);
+        } else {
+            complete = false;
+        }
+    }
+    return complete;
+}
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
 
@@ -58,25 +81,11 @@ struct RunBox {
 };
 
 bool include_run_of_target(const TriangleRun& run, TriangleBounds& all) {
-    constexpr std::size_t kAhead = 8;  // triangles prefetched
     const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);
-    const auto point = [&](std::uint32_t i)
-                           HWY_ATTR { return _mm256_maskload_pd(&run.positions[i].x, three); };
+    const auto corner = [&](std::uint32_t i)
+                            HWY_ATTR { return _mm256_maskload_pd(&run.positions[i].x, three); };
     RunBox box;
-    bool complete = true;
-    for (std::size_t i = 0; i < run.count; ++i) {
-        const auto& ahead = run.triangles[std::min(i + kAhead, run.count - 1)];
-        __builtin_prefetch(run.positions + ahead[0]);
-        __builtin_prefetch(run.positions + ahead[1]);
-        __builtin_prefetch(run.positions + ahead[2]);
-        const auto& corners = run.triangles[i];
-        RunBox one;
-        if (one.set(point(corners[0]), point(corners[1]), point(corners[2]))) {
-            box.include(one);
-        } else {
-            complete = false;
-        }
-    }
+    const bool complete = include_triangles(run, corner, box);
     double lo[4], hi[4];
     _mm256_storeu_pd(lo, box.lo);
     _mm256_storeu_pd(hi, box.hi);
@@ -91,23 +100,9 @@ bool include_run_of_target(const TriangleRun& run, TriangleBounds& all) {
 #else
 
 bool include_run_of_target(const TriangleRun& run, TriangleBounds& all) {
-    constexpr std::size_t kAhead = 8;
+    const auto corner = [&](std::uint32_t i) HWY_ATTR { return run.positions[i]; };
     TriangleBounds box;
-    bool complete = true;
-    for (std::size_t i = 0; i < run.count; ++i) {
-        const auto& ahead = run.triangles[std::min(i + kAhead, run.count - 1)];
-        __builtin_prefetch(run.positions + ahead[0]);
-        __builtin_prefetch(run.positions + ahead[1]);
-        __builtin_prefetch(run.positions + ahead[2]);
-        const auto& corners = run.triangles[i];
-        TriangleBounds one;
-        if (one.set(run.positions[corners[0]], run.positions[corners[1]],
-                    run.positions[corners[2]])) {
-            box.include(one);
-        } else {
-            complete = false;
-        }
-    }
+    const bool complete = include_triangles(run, corner, box);
     all.include(box);
     return complete;
 }
