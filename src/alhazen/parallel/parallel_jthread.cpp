@@ -12,6 +12,7 @@
 
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/thread_start.h"
 
 namespace alhazen {
 
@@ -115,6 +116,10 @@ void ThreadLimit::run(const std::function<void()>& work) {
     } const restore{Pool::local()};
     Pool::local() = &impl_->pool;
     work();
+}
+
+void run_while_threads_start(int, const std::function<void()>& work) {
+    work();  // each call starts its own
 }
 
 void parallel_for(std::size_t count, std::size_t grain,

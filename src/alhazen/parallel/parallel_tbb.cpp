@@ -13,11 +13,14 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/thread_start.h"
 
 namespace alhazen {
 
@@ -132,6 +135,27 @@ ThreadLimit::~ThreadLimit() {
 void ThreadLimit::run(const std::function<void()>& work) {
     const Ahead ahead(impl_->arena.get());
     work();
+}
+
+void run_while_threads_start(int threads, const std::function<void()>& work) {
+    threads = most_threads(threads > 0 ? threads : available_cores());
+    if (threads == 1) return work();
+    std::unique_ptr<Arena> arena = ArenaPool::instance().take(threads);
+    {
+        std::jthread starter;
+        try {
+            starter = std::jthread([&tasks = arena->tasks, threads] {
+                tasks.execute([threads] {
+                    tbb::parallel_for(
+                        0, threads, [](int) {}, tbb::simple_partitioner());
+                });
+            });
+        } catch (const std::system_error&) {
+            // The first parallel call starts what the system still grants.
+        }
+        work();
+    }
+    ArenaPool::instance().give_back(std::move(arena));
 }
 
 void parallel_for(std::size_t count, std::size_t grain,

@@ -1,9 +1,12 @@
 #include "alhazen/session/load.h"
 
+#include <cstdint>
+#include <system_error>
 #include <utility>
 
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/thread_start.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/session/shutter.h"
@@ -16,6 +19,14 @@ namespace {
 
 void report_phase(const LoadOptions& options, const char* phase, std::size_t done) {
     if (options.progress != nullptr) options.progress->update(phase, done, 1);
+}
+
+/// True if reading the file takes longer than starting threads.
+bool is_long(const std::filesystem::path& path) {
+    constexpr std::uintmax_t kLong = std::uintmax_t{128} << 10;
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(path, failed);
+    return !failed && size >= kLong;
 }
 
 /// Runs `work` as the phase "build".
@@ -45,9 +56,16 @@ void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
     SceneDescription description;
-    ThreadLimit(options.threads).run([&] {
-        description = import_scene(path, options.import, diagnostics);
-    });
+    const auto import = [&] {
+        ThreadLimit(options.threads).run([&] {
+            description = import_scene(path, options.import, diagnostics);
+        });
+    };
+    if (is_long(path)) {
+        run_while_threads_start(options.threads, import);
+    } else {
+        import();
+    }
     if (options.shutter) {
         open_shutter_of(description, options.import, *options.shutter, diagnostics);
     }

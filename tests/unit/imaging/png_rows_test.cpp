@@ -124,6 +124,31 @@ TEST(PngRows, SmallPicturesAreOnePieceAndLargeOnesLittleLarger) {
     EXPECT_LT(double(pieces.size()), 1.01 * double(size));
 }
 
+/// Noise, whose compressed size is that of the rows.
+TEST(PngRows, ManyPiecesGetSmallerAndTwoAreEqual) {
+    const auto noise = [](int height) {
+        const EncodedImage image = testing::random_codes(1024, height, 3, 8, 7);
+        return compressed_rows(rows_of(image));
+    };
+    const std::vector<Bytes> two = noise(170);
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_NEAR(double(two[0].size()), double(two[1].size()), 100.0);
+    const std::vector<Bytes> parts = noise(1024);
+    ASSERT_EQ(parts.size(), 12u);
+    for (std::size_t i = 1; i < parts.size(); ++i) EXPECT_LT(parts[i].size(), parts[i - 1].size());
+    EXPECT_LT(2 * parts.back().size(), parts.front().size());
+}
+
+/// Pieces of no row are left out.
+TEST(PngRows, FewLongRowsAreReadAsTheyWere) {
+    for (const int height : {1, 2, 3, 4, 5, 7}) {
+        const EncodedImage image = sloped(90'000, height, 4, 8);
+        const std::vector<Bytes> parts = compressed_rows(rows_of(image));
+        EXPECT_LE(parts.size(), std::size_t(height));
+        EXPECT_EQ(decompressed(joined(parts), filtered_size(image)).size(), filtered_size(image));
+    }
+}
+
 TEST(PngRows, ACodeThatDoesNotFitInAnyPieceIsRefused) {
     for (const std::size_t at : {std::size_t{0}, std::size_t{1'000'000}, std::size_t{3'145'727}}) {
         EncodedImage image = sloped(1024, 1024, 3, 8);

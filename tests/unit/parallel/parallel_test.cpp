@@ -1,4 +1,5 @@
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/thread_start.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -199,6 +200,26 @@ TEST(Parallel, ALimitWithinALimitOfOneHasItsOwnThreads) {
         parallel_for(
             8, 1, [&](std::size_t, std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); });
     });
+}
+
+TEST(Parallel, WorkWhileThreadsStartRunsOnceOnTheCallingThread) {
+    for (const int threads : {0, 1, 2, 5}) {
+        int runs = 0;
+        std::thread::id on;
+        run_while_threads_start(threads, [&] {
+            ++runs;
+            on = std::this_thread::get_id();
+            std::atomic<int> sum{0};
+            ThreadLimit(threads).run([&] {
+                parallel_for(100, 1, [&](std::size_t begin, std::size_t) { sum += int(begin); });
+            });
+            EXPECT_EQ(sum, 4950);
+        });
+        EXPECT_EQ(runs, 1);
+        EXPECT_EQ(on, std::this_thread::get_id());
+        EXPECT_THROW(run_while_threads_start(threads, [] { throw std::runtime_error("none"); }),
+                     std::runtime_error);
+    }
 }
 
 TEST(Parallel, ZeroMeansAllAvailableCores) {

@@ -311,5 +311,34 @@ TEST(PlainMeshes, AreThoseWhosePointsScatterAlike) {
     EXPECT_EQ(meshes.find(inside).material, nullptr);
 }
 
+/// Few large meshes among many small ones, so that a block of triangles has one mesh or many.
+TEST(PlainMeshes, HoldAllTrianglesOfMeshesOfUnevenSizes) {
+    for (const int small : {0, 1, 7, 150}) {
+        SceneMaker maker;
+        const MaterialId material = maker.material(matt({0.5, 0.5, 0.5}));
+        const auto add_small = [&](int count) {
+            for (int i = 0; i < count; ++i) {
+                maker.add(maker.mesh(quad({0.1 * i, 0, -3}, {0.1, 0, 0}, {0, 1, 0})), material);
+            }
+        };
+        add_small(small);
+        for (int i = 0; i < 9; ++i) maker.add(maker.mesh(round_mesh(false, false)), material);
+        add_small(small / 2);
+        const Scene scene = maker.compile("wide_bvh");
+        PlainMeshes meshes(scene);
+        const PrimitiveTable& table = scene.aggregate->primitives();
+        for (const PlacedMesh& mesh : table.meshes) {
+            const auto size = static_cast<std::uint32_t>(mesh.mesh->triangles.size());
+            for (std::uint32_t i = 0; i < size; ++i) {
+                Hit hit;
+                hit.primitive = PrimitiveId{table.first(kTriangleKind) + mesh.first_triangle + i};
+                const PlainMeshes::Place place = meshes.find(hit);
+                ASSERT_EQ(place.mesh, &mesh) << small << " " << i;
+                ASSERT_EQ(place.triangle, i) << small;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

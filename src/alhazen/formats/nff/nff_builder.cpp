@@ -90,8 +90,11 @@ void NffBuilder::check_room(const FileLocation& where) {
 
 void NffBuilder::add_shape(AnyShape shape, const FileLocation& where) {
     check_room(where);
-    scene_.objects[0].parts.push_back(
-        {std::move(shape), Affine{}, current_material(where), {}, where});
+    const MaterialId material = current_material(where);
+    Part& part = scene_.objects[0].parts.emplace_back();
+    part.what = std::move(shape);
+    part.material = material;
+    part.location = where;
 }
 
 void NffBuilder::add_sphere(const Vec3& center, double radius, const FileLocation& where) {

@@ -56,7 +56,7 @@ NffReader::NffReader(const ImportSource& source, SceneDescription& scene, Diagno
       scene_(scene),
       diagnostics_(diagnostics),
       builder_(scene, source.options, diagnostics) {
-    view_.location = {file_, 0, 0};
+    view_.location = statement_ = {file_, 0, 0};
 }
 
 void NffReader::read() {
@@ -73,7 +73,10 @@ void NffReader::read_word() {
     const std::string_view word = cursor_.word();
     for (const Statement& statement : kStatements) {
         if (statement.name != word) continue;
-        statement_ = start.location(file_);
+        // Keeps the name of the file, which is long.
+        const FileLocation place = start.location({});
+        statement_.line = place.line;
+        statement_.column = place.column;
         statement_name_ = word;
         recovering_ = !(this->*statement.read)();
         return;

@@ -51,6 +51,13 @@ class PathRandomness {
         return p < kByHash ? draws_.at(sample, p) : by_hash(key_of(sample), p);
     }
 
+    /// The first number of `draw`.
+    [[nodiscard]] double draw_first(std::uint32_t sample, int bounce, BouncePair pair) {
+        const std::uint32_t p = pair_of(bounce, pair);
+        return p < kByHash ? draws_.at(sample, p).x
+                           : random_at(key_of(sample), 2 * std::uint64_t{p});
+    }
+
     /// The numbers of a pair, [sample of the batch]; null if they are not drawn together. Valid
     /// until `begin`.
     [[nodiscard]] const Vec2* drawn(int bounce, BouncePair pair) {

@@ -65,7 +65,7 @@ void PathTracer::draw_numbers() {
     LightCallLanes& calls = draws_.calls();
     // Most paths of a batch have the same number of bounces.
     int bounce = -1;
-    const Vec2 *places = nullptr, *directions = nullptr;
+    const Vec2 *places = nullptr, *directions = nullptr, *chosen = nullptr;
     for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
         const EyePath& path = *of_lanes_[lane].path;
         const std::uint32_t sample = path.sample;
@@ -73,10 +73,15 @@ void PathTracer::draw_numbers() {
             bounce = path.drawn;
             places = random_.drawn(bounce, kLight);
             directions = random_.drawn(bounce, kDirection);
+            chosen = chooses_light_ ? random_.drawn(bounce, kChoices) : nullptr;
         }
         const Vec2 place = places ? places[sample] : random_.draw(sample, bounce, kLight);
         const Vec2 u = directions ? directions[sample] : random_.draw(sample, bounce, kDirection);
-        if (chooses_light_) calls.choice[lane] = choices(path, true).y;
+        if (chooses_light_) {
+            const Vec2 both = chosen ? chosen[sample] : random_.draw(sample, bounce, kChoices);
+            lobe_choices_[lane] = both.x;
+            calls.choice[lane] = both.y;
+        }
         calls.u[0][lane] = place.x;
         calls.u[1][lane] = place.y;
         lanes_.u[0][lane] = u.x;
@@ -99,7 +104,9 @@ void PathTracer::scatter_lanes() {
         if (material->is_matt) continue;
         if (const auto& rough = material->rough[v.entering >> lane & 1u]) {
             any_rough = true;
-            rough_.set(lane, *rough, choices(*of_lanes_[lane].path, true).x);
+            const double choice =
+                chooses_light_ ? lobe_choices_[lane] : choices(*of_lanes_[lane].path, true).x;
+            rough_.set(lane, *rough, choice);
         } else {
             scatter_other(lane);
         }

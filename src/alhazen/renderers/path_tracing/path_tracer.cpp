@@ -365,7 +365,7 @@ bool PathTracer::survives_roulette(EyePath& path) {
     if (path.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
-    const double draw = random_.draw(path.sample, path.drawn - 1, PathRandomness::kRoulette).x;
+    const double draw = random_.draw_first(path.sample, path.drawn - 1, PathRandomness::kRoulette);
     if (!(draw < share)) {
         record_step(path, PathStep::Roulette);
         return false;

@@ -221,7 +221,8 @@ class PathTracer {
     RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
-    const MediumStack outside_;  ///< around vertices in lanes
+    std::array<double, VertexLanes::kMost> lobe_choices_;  ///< set where a light is chosen, too
+    const MediumStack outside_;                            ///< around vertices in lanes
     LightDraws draws_;
     std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;

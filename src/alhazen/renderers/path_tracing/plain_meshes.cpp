@@ -33,7 +33,24 @@ PlainMeshes::PlainMeshes(const Scene& scene)
       first_(table_.first(kTriangleKind)),
       any_(!scene.has_motion && !scene.aggregate->completes_surfaces()),
       looks_(table_.meshes.size()),
-      materials_(scene.materials.size()) {}
+      materials_(scene.materials.size()) {
+    if (any_) list_meshes();
+}
+
+void PlainMeshes::list_meshes() {
+    for (const PlacedMesh& mesh : table_.meshes) {
+        ends_.push_back(mesh.first_triangle +
+                        static_cast<std::uint32_t>(mesh.mesh->triangles.size()));
+    }
+    if (ends_.empty() || ends_.back() == 0) return;
+    const std::uint32_t last = ends_.back() - 1;
+    const std::size_t most = std::max<std::size_t>(64, 8 * ends_.size());
+    while ((last >> block_bits_) >= most) ++block_bits_;
+    for (std::uint32_t block = 0, mesh = 0; block <= (last >> block_bits_); ++block) {
+        while (ends_[mesh] <= (block << block_bits_)) ++mesh;
+        first_meshes_.push_back(mesh);
+    }
+}
 
 void PlainMeshes::look_at(const PlacedMesh& mesh, Look& look) {
     look.known = true;

@@ -40,8 +40,9 @@ class PlainMeshes {
         const std::uint32_t kind = table_.kind(hit.primitive);
         if (!any_ || kind != kTriangleKind || !hit.path.empty()) return {};
         const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - first_;
-        const PlacedMesh& mesh = table_.mesh_of(index);
-        Look& look = looks_[static_cast<std::size_t>(&mesh - table_.meshes.data())];
+        const std::size_t number = mesh_at(index);
+        const PlacedMesh& mesh = table_.meshes[number];
+        Look& look = looks_[number];
         if (!look.known) look_at(mesh, look);
         return {&mesh, index - mesh.first_triangle, look.material};
     }
@@ -52,14 +53,29 @@ class PlainMeshes {
         const PlainMaterial* material = nullptr;
     };
 
+    /// The number of the mesh of a triangle. Most blocks of triangles have one or two meshes.
+    [[nodiscard]] std::size_t mesh_at(std::uint32_t triangle) const {
+        std::size_t number = first_meshes_[triangle >> block_bits_];
+        for (int steps = 0; ends_[number] <= triangle; ++steps, ++number) {
+            if (steps == kMostSteps) {
+                return static_cast<std::size_t>(&table_.mesh_of(triangle) - table_.meshes.data());
+            }
+        }
+        return number;
+    }
+    void list_meshes();
     void look_at(const PlacedMesh& mesh, Look& look);
     [[nodiscard]] const PlainMaterial* material_of(MaterialId id);
 
     const Scene& scene_;
     const PrimitiveTable& table_;
-    std::uint32_t first_;                                    ///< primitive of the first triangle
-    bool any_;                                               ///< false: no hit is plain
-    std::vector<Look> looks_;                                ///< [mesh]
+    std::uint32_t first_;      ///< primitive of the first triangle
+    bool any_;                 ///< false: no hit is plain
+    std::vector<Look> looks_;  ///< [mesh]
+    static constexpr int kMostSteps = 4;
+    int block_bits_ = 0;
+    std::vector<std::uint32_t> first_meshes_;  ///< [triangle >> block_bits_] of the first triangle
+    std::vector<std::uint32_t> ends_;          ///< [mesh] behind its last triangle
     std::vector<std::unique_ptr<PlainMaterial>> materials_;  ///< [material]; null: not yet made
 };
 

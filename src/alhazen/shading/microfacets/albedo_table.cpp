@@ -81,13 +81,16 @@ double AlbedoTable::at(double mu, double alpha) const {
 
 AlbedoTable::Slice::Slice(const AlbedoTable& table, double alpha)
     : axis_(table.axis_), alpha_(std::clamp(alpha, AlbedoAxes::kLeastAlpha, 1.0)) {
-    table.table_.get_slice(AlbedoAxes::y_of(alpha_), values_);
+    std::array<double, kCosines> values;
+    table.table_.get_slice(AlbedoAxes::y_of(alpha_), values);
+    CubicTable<2>::get_pieces(values, pieces_);
 }
 
 double AlbedoTable::Slice::at(double mu) const {
     const double m = std::clamp(mu, AlbedoAxes::kLeastMu, 1.0);
-    return std::clamp(
-        CubicTable<2>::at(std::span<const double>(values_), place_of(axis_, m, alpha_)), 0.0, 1.0);
+    return std::clamp(CubicTable<2>::at(std::span<const CubicTable<2>::Piece>(pieces_),
+                                        place_of(axis_, m, alpha_)),
+                      0.0, 1.0);
 }
 
 double AlbedoTable::mean(double alpha) const {

@@ -61,7 +61,7 @@ class AlbedoTable {
       private:
         Axis axis_;
         double alpha_;
-        std::array<double, kCosines> values_;
+        std::array<CubicTable<2>::Piece, kCosines - 1> pieces_;
     };
     /// Cosine-weighted mean over the hemisphere.
     [[nodiscard]] double mean(double alpha) const;

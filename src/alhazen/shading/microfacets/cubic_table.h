@@ -50,14 +50,28 @@ class CubicTable {
                             [&](int i) { return slice[static_cast<std::size_t>(i)]; });
     }
 
-  private:
-    /// The cubic through four neighbours at t in [0, 1] between the middle two.
-    static double cubic(double a, double b, double c, double d, double t) {
-        return b +
-               0.5 * t *
-                   (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+    /// A cubic between two neighbouring values.
+    struct Piece {
+        double constant, linear, square, cube;
+
+        [[nodiscard]] double at(double t) const {
+            return constant + 0.5 * t * (linear + t * (square + t * cube));
+        }
+    };
+    /// Writes the pieces of a slice, one fewer than its values.
+    static void get_pieces(std::span<const double> slice, std::span<Piece> out) {
+        const std::size_t size = slice.size();
+        for (std::size_t cell = 0; cell + 1 < size; ++cell) {
+            out[cell] = piece(cell, size, [&](std::size_t i) { return slice[i]; });
+        }
+    }
+    /// Interpolates by the pieces of a slice: the bits of `at`.
+    [[nodiscard]] static double at(std::span<const Piece> pieces, double x) {
+        const auto [cell, t] = place_in(pieces.size(), x);
+        return pieces[cell].at(t);
     }
 
+  private:
     template <std::size_t Axis>
     [[nodiscard]] double along(const Point& p, std::size_t start) const {
         const int size = sizes_[Axis];
@@ -72,16 +86,31 @@ class CubicTable {
         });
     }
 
-    /// Interpolates `size` values at `place` in [0, 1] from the first to the last.
+    struct Place {
+        std::size_t cell;
+        double t;  ///< 0..1 within the cell
+    };
+    /// The place of x in [0, 1] among `cells`; NaN is 0.
+    [[nodiscard]] static Place place_in(std::size_t cells, double x) {
+        const double at = (x > 0.0 ? std::min(x, 1.0) : 0.0) * static_cast<double>(cells);
+        const int cell = std::min(static_cast<int>(at), static_cast<int>(cells) - 1);
+        return {static_cast<std::size_t>(cell), at - cell};
+    }
+    /// The cubic through the four neighbours of a cell, for t in [0, 1] between the middle two.
     template <class Value>
-    [[nodiscard]] static double interpolated(int size, double place, const Value& value) {
-        // NaN reads the first value.
-        const double x = (place > 0.0 ? std::min(place, 1.0) : 0.0) * (size - 1);
-        const int cell = std::min(static_cast<int>(x), size - 2);
+    [[nodiscard]] static Piece piece(std::size_t cell, std::size_t size, const Value& value) {
         const double b = value(cell), c = value(cell + 1);
         const double a = cell > 0 ? value(cell - 1) : 3.0 * b - 3.0 * c + value(cell + 2);
         const double d = cell + 2 < size ? value(cell + 2) : 3.0 * c - 3.0 * b + a;
-        return cubic(a, b, c, d, x - cell);
+        return {b, c - a, 2.0 * a - 5.0 * b + 4.0 * c - d, 3.0 * (b - c) + d - a};
+    }
+    /// Interpolates `size` values at x in [0, 1] from the first to the last.
+    template <class Value>
+    [[nodiscard]] static double interpolated(int size, double x, const Value& value) {
+        const auto [cell, t] = place_in(static_cast<std::size_t>(size) - 1, x);
+        return piece(cell, static_cast<std::size_t>(size),
+                     [&](std::size_t i) { return value(static_cast<int>(i)); })
+            .at(t);
     }
 
     std::array<int, D> sizes_{};

@@ -50,6 +50,21 @@ TEST(AlbedoTables, GiveTheSameBitsHoweverOftenTheyAreAsked) {
     }
 }
 
+TEST(AlbedoTables, SlicesGiveTheBitsOfTheirTable) {
+    const auto albedo = [](double mu, double alpha) { return 0.2 + 0.7 * mu * (1.0 - alpha); };
+    for (const auto axis : {AlbedoTable::Axis::Shadow, AlbedoTable::Axis::Angle}) {
+        const AlbedoTable table(albedo, axis);
+        for (const double r : kRoughnesses) {
+            const AlbedoTable::Slice slice(table, r);
+            // All cells, the ends and beyond.
+            for (int i = -2; i <= 1002; ++i) {
+                const double mu = 0.001 * i;
+                ASSERT_EQ(slice.at(mu), table.at(mu, r)) << mu << " " << r;
+            }
+        }
+    }
+}
+
 TEST(AlbedoTables, DielectricsAreTheirIntegrals) {
     for (const double r : {0.05, 0.21, 0.47, 0.79, 1.0}) {
         for (const double mu : {0.05, 0.15, 0.52, 0.88}) {
