@@ -230,6 +230,8 @@ ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,
     const double cosine = std::max(std::abs(dot(cone.axis, point.geometric)), 0.05);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
     path.start.clear = cone.radius * (sine / cosine + 0.05);
+    const double side = dot(cone.axis, point.geometric) < 0.0 ? -1.0 : 1.0;
+    path.start.plane = ConePlane{point.surface.point, side * point.geometric};
     path.start.range.z_min = 1e-9 * (1.0 + max_component(abs(point.surface.point)));
     return path;
 }
