@@ -1,6 +1,7 @@
 #include "alhazen/shapes/tessellation/derivative_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -22,6 +23,18 @@ struct NetDifferences {
         weight = std::max(weight, factor * std::abs(d.w));
     }
 };
+
+/// [n][k]
+constexpr auto kBinomials = [] {
+    std::array<std::array<double, kMaxPatchOrder>, kMaxPatchOrder> table{};
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        table[n][0] = 1;
+        for (std::size_t k = 1; k <= n; ++k) {
+            table[n][k] = table[n - 1][k - 1] + (k < n ? table[n - 1][k] : 0);
+        }
+    }
+    return table;
+}();
 
 /// A polynomial in u and v by its Bernstein coefficients times the binomials, u-major, so that
 /// products are convolutions.
@@ -47,9 +60,7 @@ struct ScaledNet {
         return net;
     }
     static double binomial(int n, int k) {
-        double result = 1;
-        for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-        return result;
+        return kBinomials[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)];
     }
 };
 
@@ -161,7 +172,7 @@ PatchDerivativeBounds second_derivative_bounds(const BezierNet& net) {
         const RationalParts s(net, center, 0, 0), su(net, center, 1, 0), sv(net, center, 0, 1);
         const auto tighten = [&](double& bound, const RationalParts& first,
                                  const RationalParts& second, int du, int dv) {
-            if (du > m || dv > n) return;
+            if (du > m || dv > n || bound == 0.0) return;
             const RationalParts both(net, center, du, dv);
             bound = std::min(bound, numerator_bound(s, first, second, both));
         };
