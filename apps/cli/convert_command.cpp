@@ -35,7 +35,13 @@ int run(const ConvertArguments& args) {
         const bool keep_others = args.convert.meshes_only ||
                                  std::filesystem::path(args.output).extension() == ".alhazen";
         const TessellationReport report = tessellate(description, *args.tolerance, keep_others);
+        if (args.scene.strict && !report.lost.empty()) {
+            std::string message = "triangles cannot hold all of the scene:";
+            for (const std::string& line : report.lost) message += "\nerror: " + line;
+            throw Error(ErrorKind::Scene, message);
+        }
         if (!args.quiet) {
+            for (const std::string& line : report.lost) tell("warning: {}\n", line);
             for (const std::string& line : report.kept) tell("warning: {}\n", line);
             tell("{} became {} within {:g} of {}\n", counted(report.shapes, "shape"),
                  counted(report.triangles, "triangle"), *args.tolerance,

@@ -48,6 +48,10 @@ const Metric& find_metric(const std::string& name) {
     throw Error(ErrorKind::Usage, fmt::format("unknown metric '{}'; known: {}", name, known));
 }
 
+void warn_of_nothing(const std::string& path, const Image& image) {
+    if (image.held.are_none()) tell("warning: {}: {}\n", path, kNoPixelsHeld);
+}
+
 /// If only one of the pictures is that of a full frame of which the file holds a part of the size
 /// of the other, keeps this part.
 void keep_common(Image& a, Image& b) {
@@ -101,6 +105,8 @@ void add_diff(CLI::App& app, int& exit_status) {
         Image a = read_image(args->a, limits);
         limits.max_bytes -= a.samples.size() * sizeof(float);
         Image b = read_image(args->b, limits);
+        warn_of_nothing(args->a, a);
+        warn_of_nothing(args->b, b);
         keep_common(a, b);
         const ImageDifference d = difference(a, b);
         const double value = metric.value(d);

@@ -196,7 +196,10 @@ Response ViewSession::frame(const json& request, Turn& turn) {
         return {200, "application/octet-stream", raw_pixels(result.film, film.encoding(), threads_),
                 text_of(facts), ""};
     }
-    return picture_answer(picture_of(result, wish, film, facts), wish, facts);
+    Response answer;
+    ThreadLimit(threads_).run(
+        [&] { answer = picture_answer(picture_of(result, wish, film, facts), wish, facts); });
+    return answer;
 }
 
 Response ViewSession::explain(const json& request, Turn& turn) {

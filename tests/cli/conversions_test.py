@@ -156,6 +156,24 @@ bilinear_patch { material = "m"; transform = %s }
             self.assertEqual(result.returncode, 3 if loses else 0, result.stderr)
             self.assertEqual("error: the MTL file cannot express the normal map of mirrored patches (material 'm')" in result.stderr, loses)
 
+    def test_solids_tell_what_they_lose_of_their_meshes(self):
+        corners = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
+        for names, values, told in (("x y z", "", ""), ("x y z u2 v2", " 0.5 0.5", "second texture coordinates"),
+                                    ("x y z red green blue", " 1 0.5 0", "vertex colours")):
+            self.write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 4\n"
+                       + "".join("property float %s\n" % name for name in names.split())
+                       + "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                       + "".join("%g %g %g%s\n" % (*corner, values) for corner in corners)
+                       + "3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n")
+            scene = self.write("cut.alhazen", 'alhazen 1\ndifference "cut" { mesh { file = "mesh.ply" } '
+                               "sphere { radius = 0.5 } }\n")
+            result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.stderr.count("warning: "), 1 if told else 0, result.stderr)
+            self.assertIn(told, result.stderr)
+            result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1", "--strict", "-q")
+            self.assertEqual(result.returncode, 3 if told else 0, result.stderr)
+
     def test_what_has_no_triangles_is_refused_or_stays(self):
         scene = self.write("plane.alhazen", "alhazen 1\nsphere { radius = 1 }\nplane \"floor\" { point = (0, -1, 0) }\n")
         result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1")

@@ -7,6 +7,7 @@ Usage: pictures_test.py ALHAZEN SOURCE_FOLDER
 import json
 import os
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -75,6 +76,21 @@ class Pictures(CommandLineCase):
         self.assertNotIn("warning", result.stderr)
         report = json.loads(run("diff", half, whole, "--json").stdout)
         self.assertEqual(report["max"], 1e6 - 65504)
+
+    def test_diff_tells_of_a_file_whose_pixels_lie_outside_of_the_picture(self):
+        self.render("--crop", "0,0,4,4", output="part.exr", size="8x8")
+        part = bytearray(self.read("part.exr"))
+        name = b"displayWindow\0box2i\0"
+        at = part.index(name) + len(name) + 4
+        part[at:at + 16] = struct.pack("<4i", 100, 100, 107, 107)
+        with open(self.path("none.exr"), "wb") as file:
+            file.write(part)
+        result = run("diff", self.path("none.exr"), self.path("none.exr"), "--json")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(json.loads(result.stdout)["pixels"], 64)
+        self.assertEqual(result.stderr.count("warning: "), 2)
+        self.assertIn("none.exr: the data window of the file lies outside", result.stderr)
+        self.assertEqual(run("diff", self.path("part.exr"), self.path("part.exr")).stderr, "")
 
     def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
         result = self.render("--aov", "all", output="layers.exr")

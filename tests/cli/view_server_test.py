@@ -177,6 +177,18 @@ class ViewServer(ServerTest):
         self.assertNotEqual(self.server.ask("/frame", {**WISH, "png": True, "exposure": 1})[2], body)
         self.assertEqual(self.server.ask("/frame", WISH)[2][:2], b"\xff\xd8")
 
+    def test_the_limit_of_threads_holds_where_pictures_are_encoded(self):
+        server = Server(ALHAZEN, self.scene, "-t", "1")
+        self.addCleanup(server.close)
+
+        def threads():
+            return len(os.listdir(f"/proc/{server.process.pid}/task"))
+        self.assertEqual(server.ask("/frame", WISH)[0], 200)
+        before = threads()
+        large = {**WISH, "png": True, "renderer": "ray_casting", "width": 1024, "height": 768}
+        self.assertEqual(server.ask("/frame", large)[0], 200)
+        self.assertEqual(threads(), before)
+
     def test_an_explanation_has_the_tree_of_the_pixel(self):
         status, _, body = self.server.ask("/explain", {**WISH, "x": 40, "y": 30, "steps": "list"})
         self.assertEqual(status, 200)

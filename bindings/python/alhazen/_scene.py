@@ -192,7 +192,8 @@ class Scene:
 
     @property
     def bounds(self) -> np.ndarray:
-        """The corners (2, 3) of the box of all geometry, scene units; infinite if any part is unbounded."""
+        """The corners (2, 3) of the box of all geometry, over the whole of its motion, scene units; infinite if any
+        part is unbounded."""
         return np.array(self._scene().bounds())
 
     @property

@@ -234,6 +234,30 @@ TEST(ConeTracing, IsNearManyRaysEverywhere) {
     EXPECT_LT(largest, 0.35);
 }
 
+TEST(ConeTracing, ASphereThatPenetratesABoxDoesNotDarkenTheContact) {
+    SceneMaker maker;
+    Material white;
+    white.diffuse.color = {1, 1, 1};
+    maker.add(Sphere{.center = {0.1, -0.1, 2.2}, .radius = 0.58}, maker.material({}));
+    maker.add(BoxShape{{-0.5, -0.56, 2}, {0.64, 0.48, 2.45}}, maker.material(white));
+    maker.light(PointLight{.position = {0.05, 0.1, 3.94}});
+    const Camera camera = look_along({0.5, -2, 6}, {-0.5, 2, -6}, {0, 0, 1}, 0.3, 4.0 / 3);
+    const Film cones = picture_of(maker, camera, 32, 24);
+    const Scene scene = maker.compile();
+    Film rays(32, 24, {0, 0, 32, 24});
+    (void)Whitted().render({.scene = scene, .camera = camera, .samples_per_pixel = 256}, rays);
+    double sum = 0, light = 0;
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            const double d = cones.at(x, y).r - rays.at(x, y).r;
+            sum += d * d;
+            light += d;
+        }
+    }
+    EXPECT_LT(std::sqrt(sum / (32 * 24)), 0.06);
+    EXPECT_LT(std::abs(light) / (32 * 24), 0.005);
+}
+
 TEST(ConeTracing, TablesChangeAPictureByAThousandth) {
     SceneMaker maker;
     for (int k = 0; k < 20; ++k) {

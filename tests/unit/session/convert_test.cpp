@@ -471,6 +471,25 @@ TEST(ConvertMeshes, AnObjTellsThatItsNormalsAreUnit) {
     EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "b.ply")).empty());
 }
 
+TEST(ConvertMeshes, AnStlTellsOfCornersThatComeTogether) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    const MeshIndex index = maker.mesh(testing::tetrahedron());
+    const MaterialId plain = maker.material({.name = "plain"});
+    maker.add(index, plain);
+    EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "a.stl")).empty());
+    // Floats near 1e9 are 64 apart.
+    maker.add(index, plain, Affine::translate({1e9, 1e9, 1e9}));
+    const ConvertReport report = convert(maker.description(), folder.path() / "b.stl");
+    EXPECT_EQ(report.collapsed, 4U);
+    ASSERT_EQ(losses_of(report).size(), 1U);
+    EXPECT_NE(losses_of(report)[0].find("corners of 4 triangles"), std::string::npos)
+        << losses_of(report)[0];
+    EXPECT_TRUE(losses_of(convert(maker.description(), folder.path() / "b.ply")).empty());
+    EXPECT_THROW((void)convert(maker.description(), folder.path() / "c.stl", {.strict = true}),
+                 Error);
+}
+
 TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
     const ScratchFolder folder;
     const auto scene = folder.write(

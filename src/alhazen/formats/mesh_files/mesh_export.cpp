@@ -319,4 +319,24 @@ std::string stl_bytes(std::span<const NamedMesh> meshes) {
     return out;
 }
 
+std::uint64_t triangles_that_floats_collapse(std::span<const NamedMesh> meshes) {
+    const auto rounded = [](const Vec3& p) {
+        return std::array{float(p.x), float(p.y), float(p.z)};
+    };
+    std::uint64_t count = 0;
+    for (const NamedMesh& from : meshes) {
+        for (const auto& t : from.mesh->triangles) {
+            bool collapses = false, had_area = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 a = from.placement.point(from.mesh->positions[t[k]]);
+                const Vec3 b = from.placement.point(from.mesh->positions[t[(k + 1) % 3]]);
+                had_area = had_area && a != b;
+                collapses = collapses || rounded(a) == rounded(b);
+            }
+            count += had_area && collapses;
+        }
+    }
+    return count;
+}
+
 }  // namespace alhazen

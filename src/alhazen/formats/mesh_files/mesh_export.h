@@ -66,5 +66,7 @@ struct MtlTexture {
 
 /// All triangles as one binary STL. Throws Error (Resource) beyond 2^32 - 1 triangles.
 [[nodiscard]] std::string stl_bytes(std::span<const NamedMesh> meshes);
+/// The number of triangles of which floats make two corners one that are apart.
+[[nodiscard]] std::uint64_t triangles_that_floats_collapse(std::span<const NamedMesh> meshes);
 
 }  // namespace alhazen

@@ -145,6 +145,7 @@ Attenuation read_attenuation(BlockReader& reader, bool dictionary) {
     reader.read("quadratic_attenuation_coeff", a.quadratic);
     if (a.constant < 0 || a.linear < 0 || a.quadratic < 0) {
         reader.error(reader.block(), "attenuation coefficients must not be negative");
+        return {};
     }
     return a;
 }

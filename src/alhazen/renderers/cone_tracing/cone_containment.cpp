@@ -97,9 +97,10 @@ bool meets(const ConeTree::Node& node, const Ray& ray, double t_max) {
     return from <= to;
 }
 
-double distance_in_mesh(const ConeSource& source, std::uint32_t part, const Ray& ray) {
+ConeWall wall_of_mesh(const ConeSource& source, std::uint32_t part, const Ray& ray) {
     const TriangleMesh& mesh = *source.mesh.mesh;
     Ray inner = source.placed ? transformed(source.placement.inner_from_outer, ray) : ray;
+    ConeWall wall{.t = ray.t_max, .part = part};
     const RayShear shear(inner.direction);
     const auto is_met = [&](const ConeTree::Node& node) { return meets(node, inner, inner.t_max); };
     for_items(*source.tree, is_met, [&](std::uint32_t k) {
@@ -109,9 +110,10 @@ double distance_in_mesh(const ConeSource& source, std::uint32_t part, const Ray&
         if (intersect_triangle(inner, shear, mesh.positions[t[0]], mesh.positions[t[1]],
                                mesh.positions[t[2]], hit)) {
             inner.t_max = hit.t;
+            wall = {hit.t, k, hit.u, hit.v};
         }
     });
-    return inner.t_max;
+    return wall;
 }
 
 }  // namespace
@@ -123,8 +125,8 @@ bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& po
                     point);
 }
 
-double distance_inside(const ConeScene& scene, std::uint32_t source, std::uint32_t part,
-                       const Ray& ray) {
+ConeWall wall_ahead(const ConeScene& scene, std::uint32_t source, std::uint32_t part,
+                    const Ray& ray) {
     const ConeSource& s = scene.sources[source];
     switch (s.kind) {
         case ConeSource::Kind::Sphere: {
@@ -132,28 +134,31 @@ double distance_inside(const ConeScene& scene, std::uint32_t source, std::uint32
             const double a = length_squared(ray.direction), b = dot(from, ray.direction);
             const double beyond = s.radius * s.radius - length_squared(from);
             const double root = std::sqrt(std::max(b * b + a * beyond, 0.0));
-            return std::clamp((root - b) / a, 0.0, ray.t_max);
+            return {.t = std::clamp((root - b) / a, 0.0, ray.t_max)};
         }
         case ConeSource::Kind::Plane: {
             const double along = dot(ray.direction, s.normal);
             const double t = along > 0.0 ? dot(s.point - ray.origin, s.normal) / along : ray.t_max;
-            return std::clamp(t, 0.0, ray.t_max);
+            return {.t = std::clamp(t, 0.0, ray.t_max)};
         }
         case ConeSource::Kind::Faces: {
-            double t = ray.t_max;
+            ConeWall wall{.t = ray.t_max, .part = part};
             const ConeSolid& solid = scene.solids[s.solid];
             for (std::uint32_t k = solid.first_face; k < solid.end_face; ++k) {
                 const ConeFace& face = scene.faces[k];
                 const Vec3 outward = s.inward ? -face.normal : face.normal;
                 const double along = dot(ray.direction, outward);
-                if (along > 0.0) t = std::min(t, dot(face.point - ray.origin, outward) / along);
+                if (!(along > 0.0)) continue;
+                const double t = dot(face.point - ray.origin, outward) / along;
+                if (t < wall.t) wall = {.t = t, .part = face.part};
             }
-            return std::max(t, 0.0);
+            wall.t = std::max(wall.t, 0.0);
+            return wall;
         }
         case ConeSource::Kind::Mesh:
-            return distance_in_mesh(s, part, ray);
+            return wall_of_mesh(s, part, ray);
     }
-    return ray.t_max;
+    return {.t = ray.t_max};
 }
 
 SolidsAround solids_around(const ConeScene& scene, const Vec3& point) {

@@ -21,10 +21,15 @@ using SolidsAround = InlineVector<std::uint32_t, 8>;
 /// True if the closed source contains the point.
 [[nodiscard]] bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& point);
 
-/// The distance, in lengths of `ray.direction`, at which a ray that starts on the boundary of a
-/// closed source, or inside, next meets the boundary; at most `ray.t_max`. `part`: the face or
-/// triangle on which it starts.
-[[nodiscard]] double distance_inside(const ConeScene& scene, std::uint32_t source,
-                                     std::uint32_t part, const Ray& ray);
+/// The boundary of a closed source that a ray meets.
+struct ConeWall {
+    double t = 0;  ///< in lengths of the ray's direction
+    std::uint32_t part = 0;
+    double u = 0, v = 0;  ///< as of ConePiece
+};
+/// Where a ray that starts on the boundary of a closed source, or inside, next meets the boundary,
+/// at most at `ray.t_max`. `part`: the face or triangle on which it starts.
+[[nodiscard]] ConeWall wall_ahead(const ConeScene& scene, std::uint32_t source, std::uint32_t part,
+                                  const Ray& ray);
 
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/scene_model/unsupported_parts.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
@@ -130,6 +131,7 @@ class ConeGatherer {
     static void set_passage(const Material& material, ConeSource& source) {
         source.may_pass = source.may_pass || material.may_be_passed();
         source.has_alpha = source.has_alpha || material.alpha_mode != AlphaMode::Opaque;
+        source.varies = source.varies || reads_textures(material);
     }
 
     void add_mesh(const TriangleMesh* mesh, ConeSource source) {
@@ -141,6 +143,7 @@ class ConeGatherer {
         const std::vector<std::uint32_t>& own = mesh->vertex_materials;
         if (own.empty()) set_passage(material_of(source.material), source);
         for (const std::uint32_t id : own) set_passage(material_of(MaterialId{id}), source);
+        source.varies = source.varies || !own.empty() || !mesh->colors.empty();
         const MeshFacts& facts = facts_of(*mesh);
         source.closed = facts.closed;
         source.inward =

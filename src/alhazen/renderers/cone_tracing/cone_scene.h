@@ -27,6 +27,7 @@ struct ConeSource {
     bool inward = false;     ///< corners are clockwise from outside, in world space
     bool may_pass = false;   ///< a point may be transparent by coverage, or invisible from behind
     bool has_alpha = false;  ///< a point may be transparent by coverage
+    bool varies = false;     ///< its points may differ in what they let through
     RayMask visible_to = kAllRays;
     MaterialId material{0};
     std::uint32_t part = 0, instance = 0;

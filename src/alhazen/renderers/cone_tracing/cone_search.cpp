@@ -105,18 +105,16 @@ void ConeSearch::add_plane(std::uint32_t number) {
 void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
     const bool inside = start_->is_inside(number);
     if (!inside && start_->source == number) return;
-    ConePiece piece{.source = number, .front = !inside};
-    if (inside) {
-        piece.share = 1.0;
-    } else {
-        const SphereDisc disc = sphere_disc(*cone_, levels_[0].map, source.point, source.radius);
-        ConeCover cover = cover_of(disc);
-        if (tables_ && disc.kind == SphereDisc::Kind::Disc) {
-            cover.share = CoverageTables::shared().sphere(disc.distance, disc.radius);
+    ConePiece piece{.source = number, .share = 1.0, .front = !inside};
+    if (!inside) {
+        if (const std::optional<ConeCover> cover = sphere_cover(source)) {
+            if (!(cover->share > kLeastCover)) return;
+            piece.share = cover->share;
+            piece.at = cover->at;
+        } else {
+            // The cone starts inside a sphere that it did not enter.
+            piece.front = false;
         }
-        if (!(cover.share > kLeastCover)) return;
-        piece.share = cover.share;
-        piece.at = cover.at;
     }
     // Solves |o + z d - c| = r; takes the nearest point of the line if rounding loses the roots.
     const Ray ray = line(piece.at);
@@ -126,19 +124,37 @@ void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
     const double left = source.radius * source.radius - length_squared(off);
     const double root = std::sqrt(std::max(left, 0.0) / a);
     const double near = -b / a - root, far = -b / a + root;
-    if (!inside && !(near >= start_->range.z_min)) {
+    if (piece.front && !(near >= start_->range.z_min) && !start_->plane) {
         if (!(far > start_->range.z_min)) return;
-        // The cone starts inside a sphere that it did not enter.
         piece.front = false;
         piece.share = 1.0;
     }
-    piece.z = piece.front ? near : far;
+    // A disc oblique to the surface where it starts may lie behind what is met, in part.
+    piece.z = piece.front ? std::max(near, start_->range.z_min) : far;
     add(piece);
     if (!piece.front || !source.may_pass) return;
     piece.front = false;
     piece.far_side = true;
     piece.z = far;
     add(piece);
+}
+
+std::optional<ConeCover> ConeSearch::sphere_cover(const ConeSource& source) {
+    const ConeMap& map = levels_[0].map;
+    const ConeSphere sphere{source.point, source.radius};
+    if (start_->plane && !is_cut(sphere, *start_->plane) &&
+        dot(sphere.center - start_->plane->point, start_->plane->normal) < 0.0) {
+        return ConeCover{};
+    }
+    const SphereDisc disc = sphere_disc(*cone_, map, sphere.center, sphere.radius);
+    ConeCover cover = cover_of(disc);
+    if (tables_ && disc.kind == SphereDisc::Kind::Disc) {
+        cover.share = CoverageTables::shared().sphere(disc.distance, disc.radius);
+    }
+    if (!(cover.share > kLeastCover) || !start_->plane || !is_cut(sphere, *start_->plane)) {
+        return cover;
+    }
+    return cut_cover(*cone_, map, sphere, *start_->plane, cover, start_->range.z_max, scratch_);
 }
 
 void ConeSearch::add_face(const ConeFace& face) {

@@ -11,9 +11,11 @@
 /// its back from inside; of solids that may be passed the far side follows as pieces of its own.
 /// Threads: used by one thread; memory is reused.
 
+#include <optional>
 #include <vector>
 
 #include "alhazen/geometry/cones/cone_coverage.h"
+#include "alhazen/geometry/cones/cut_sphere.h"
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/renderers/cone_tracing/cone_containment.h"
 
@@ -37,7 +39,8 @@ struct ConeStart {
     std::uint32_t source = kNone, part = kNone;  ///< where it starts
     double clear = 0;  ///< pieces of that source at a smaller distance are ignored
     ConeRange range;
-    SolidsAround inside;  ///< solids that contain its start
+    std::optional<ConePlane> plane;  ///< of the surface where it starts
+    SolidsAround inside;             ///< solids that contain its start
 
     [[nodiscard]] bool is_inside(std::uint32_t s) const {
         for (const std::uint32_t k : inside) {
@@ -84,6 +87,8 @@ class ConeSearch {
     void add_item(const ConeItem& item);
     void add_plane(std::uint32_t source);
     void add_sphere(std::uint32_t number, const ConeSource& source);
+    /// The coverage by a sphere around which the cone does not start; nothing if it does.
+    [[nodiscard]] std::optional<ConeCover> sphere_cover(const ConeSource& source);
     void add_face(const ConeFace& face);
     void add_triangle(const Level& level, std::uint32_t triangle);
     [[nodiscard]] bool is_seen(const ConeSource& source) const;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
 
 namespace alhazen {
@@ -53,13 +53,6 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
         disc.radius = std::sqrt(disc.weight * major * minor);
     }
     return result;
-}
-
-/// Radius of a disc with the light's projected area along `direction`; 0 for a point light.
-double radius_of(const Light& light, const Vec3& direction) {
-    const auto* area = std::get_if<AreaLight>(&light);
-    if (area == nullptr) return 0.0;
-    return std::sqrt(area->surface->projected_area(direction) * std::numbers::inv_pi);
 }
 
 }  // namespace
@@ -199,10 +192,13 @@ bool ConeTracer::cross_piece(const ConePiece& piece, const ConeRay& cone, const 
         if (!tints) met.tint = {1, 1, 1};
         return true;
     }
-    // The front of a solid without alpha stands for its far wall, too.
+    // The front of a solid without alpha stands for its far wall, too, by what passes there.
     const bool whole = piece.front && !source.has_alpha;
     const bool ends_inside = piece.front && light_is_inside(piece.source, cone, start);
-    met.tint = by_distance ? Rgb{1, 1, 1} : whole && !ends_inside ? kt * kt : kt;
+    const bool crosses = whole && !ends_inside;
+    met.tint = by_distance ? Rgb{1, 1, 1}
+               : !crosses  ? kt
+                           : kt * (source.varies ? passing_far_wall(seen, source) : kt);
     const bool absorbs = material.physical && !material.thin && !material.absorption.is_black();
     if (!by_distance && !absorbs && (piece.front || way_ != Way::ToWall)) return true;
     const double t_light =
@@ -230,14 +226,32 @@ bool ConeTracer::cross_piece(const ConePiece& piece, const ConeRay& cone, const 
     return true;
 }
 
+/// What the wall lets through at which the line of a piece leaves the solid that it enters.
+Rgb ConeTracer::passing_far_wall(const Seen& seen, const ConeSource& source) const {
+    ConeWall wall{.t = chord_of(seen, source)};
+    if (source.kind != ConeSource::Kind::Sphere) {
+        const Ray rest{seen.ray.at(seen.t), seen.ray.direction, 0.0, kInfinity};
+        wall = wall_ahead(geometry_, seen.piece.source, seen.piece.part, rest);
+        // Rounding may lose the exit at an edge.
+        if (!std::isfinite(wall.t)) wall = {0.0, seen.piece.part, seen.piece.u, seen.piece.v};
+    }
+    ConePiece piece = seen.piece;
+    piece.front = false;
+    piece.part = wall.part;
+    piece.u = wall.u;
+    piece.v = wall.v;
+    ShadingPoint point;
+    set_point({piece, seen.cone, seen.path, seen.ray, seen.t + wall.t, seen.radius, seen.depth},
+              point, true);
+    return point.material->transmissive;
+}
+
 /// The length of the line of a piece inside the solid that it enters, up to the light.
 double ConeTracer::length_behind(const Seen& seen, const ConeSource& source, double t_light,
                                  bool ends_inside) const {
-    if (source.kind == ConeSource::Kind::Sphere && !ends_inside) {
-        return 2.0 * std::abs(dot(seen.ray.at(seen.t) - source.point, seen.ray.direction));
-    }
+    if (source.kind == ConeSource::Kind::Sphere && !ends_inside) return chord_of(seen, source);
     const Ray rest{seen.ray.at(seen.t), seen.ray.direction, 0.0, std::max(t_light - seen.t, 0.0)};
-    const double length = distance_inside(geometry_, seen.piece.source, seen.piece.part, rest);
+    const double length = wall_ahead(geometry_, seen.piece.source, seen.piece.part, rest).t;
     return std::isfinite(length) ? length : 0.0;
 }
 
@@ -246,7 +260,7 @@ double ConeTracer::length_before(const Seen& seen, const ConeSource& source,
                                  const ConeStart& start) const {
     if (!source.has_alpha && start.is_inside(seen.piece.source)) return seen.t;
     const Ray back{seen.ray.at(seen.t), -seen.ray.direction, 0.0, seen.t};
-    return distance_inside(geometry_, seen.piece.source, seen.piece.part, back);
+    return wall_ahead(geometry_, seen.piece.source, seen.piece.part, back).t;
 }
 
 bool ConeTracer::light_is_inside(std::uint32_t number, const ConeRay& cone,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/core/refraction.h"
@@ -31,6 +32,13 @@ Vec2 in_edges(const Vec3& v, const Vec3& a, const Vec3& b) {
     if (!(det > 1e-14 * aa * bb)) return {};
     const double va = dot(v, a), vb = dot(v, b);
     return {(bb * va - ab * vb) / det, (aa * vb - ab * va) / det};
+}
+
+/// Radius of a disc with the light's projected area along `direction`; 0 for a point light.
+double radius_of(const Light& light, const Vec3& direction) {
+    const auto* area = std::get_if<AreaLight>(&light);
+    if (area == nullptr) return 0.0;
+    return std::sqrt(area->surface->projected_area(direction) * std::numbers::inv_pi);
 }
 
 }  // namespace
@@ -222,6 +230,8 @@ ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,
     const double cosine = std::max(std::abs(dot(cone.axis, point.geometric)), 0.05);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
     path.start.clear = cone.radius * (sine / cosine + 0.05);
+    const double side = dot(cone.axis, point.geometric) < 0.0 ? -1.0 : 1.0;
+    path.start.plane = ConePlane{point.surface.point, side * point.geometric};
     path.start.range.z_min = 1e-9 * (1.0 + max_component(abs(point.surface.point)));
     return path;
 }

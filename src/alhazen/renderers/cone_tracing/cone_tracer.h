@@ -133,6 +133,11 @@ class ConeTracer {
     /// Sets what a piece lets through. False if it is not met.
     [[nodiscard]] bool cross_piece(const ConePiece& piece, const ConeRay& cone,
                                    const ConeStart& start, Crossed& crossed, PieceInShadow& met);
+    /// The length of the line of a piece in a sphere that it enters.
+    [[nodiscard]] static double chord_of(const Seen& seen, const ConeSource& source) {
+        return 2.0 * std::abs(dot(seen.ray.at(seen.t) - source.point, seen.ray.direction));
+    }
+    [[nodiscard]] Rgb passing_far_wall(const Seen& seen, const ConeSource& source) const;
     [[nodiscard]] double length_behind(const Seen& seen, const ConeSource& source, double t_light,
                                        bool ends_inside) const;
     [[nodiscard]] double length_before(const Seen& seen, const ConeSource& source,

@@ -260,6 +260,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     std::string bytes;
     if (suffix == ".stl") {
         bytes = stl_bytes(meshes);
+        output.report().collapsed = triangles_that_floats_collapse(meshes);
     } else if (suffix == ".obj") {
         output.report().mixed_faces = faces_of_several_materials(meshes);
         output.report().lost_mapped_tangents = meshes_that_use_tangents(description, names, meshes);
@@ -341,6 +342,9 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
     lose(report.mixed_faces, "face", "faces",
          "a face of an OBJ has one material: {} between vertices of different materials got that "
          "of the first vertex");
+    lose(report.collapsed, "triangle", "triangles",
+         "an STL holds floats: corners of {} come together, which lose their area (.alhazen, .ply "
+         "and .obj keep them apart)");
     for (const std::string& what : report.lost) {
         lines.push_back("the MTL file cannot express " + what);
     }

@@ -43,6 +43,7 @@ struct ConvertReport {
     /// OBJ: placed meshes whose vertex colours lose their alpha, or are clamped to 0 to 1.
     std::uint64_t lost_alpha = 0, clamped_colors = 0;
     std::uint64_t unit_normals = 0;  ///< OBJ: placed meshes whose normals lose their lengths
+    std::uint64_t collapsed = 0;     ///< STL: triangles of which two corners become one
     std::string left_out;            ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
     /// OBJ: material properties that MTL cannot express, one line each.
     std::vector<std::string> lost;

@@ -154,6 +154,24 @@ bool any_part_reads_coordinates(const SceneDescription& scene) {
     return false;
 }
 
+/// What triangles of a solid do not have of its meshes; empty if that is nothing.
+std::string lost_of_meshes(const SceneDescription& solid) {
+    bool coordinates = false, colors = false;
+    for (const ObjectDescription& object : solid.objects) {
+        for (const Part& part : object.parts) {
+            const auto* index = std::get_if<MeshIndex>(&part.what);
+            if (index == nullptr) continue;
+            const TriangleMesh& mesh = *solid.meshes[static_cast<std::size_t>(*index)].mesh;
+            coordinates = coordinates || !mesh.uvs2.empty();
+            colors = colors || !mesh.colors.empty();
+        }
+    }
+    constexpr const char* kSecond = "the second texture coordinates";
+    if (coordinates && colors) return fmt::format("{} and the colours of its meshes", kSecond);
+    if (coordinates) return fmt::format("{} of its meshes", kSecond);
+    return colors ? "the vertex colours of its meshes" : "";
+}
+
 class Tessellation {
   public:
     Tessellation(SceneDescription& scene, double tolerance, bool keep_others,
@@ -223,6 +241,11 @@ class Tessellation {
         const std::string failed =
             append_by_lines(alone, tolerance_ / stretch, any_part_reads_coordinates(alone), *mesh);
         if (!accept(failed, object.location, object.name, "the solid ", *mesh)) return;
+        const std::string lost = lost_of_meshes(alone);
+        if (!lost.empty()) {
+            report_.lost.push_back(fmt::format("{}: the solid {}: its triangles do not have {}",
+                                               to_string(object.location), object.name, lost));
+        }
         Part part{.what = MeshIndex{0}, .name = object.name, .location = object.location};
         std::vector<std::uint32_t>& materials = mesh->vertex_materials;
         if (!materials.empty()) part.material = MaterialId{materials[0]};

@@ -13,6 +13,8 @@ namespace alhazen {
 struct TessellationReport {
     std::uint64_t shapes = 0, triangles = 0;
     std::vector<std::string> kept;  ///< "FILE:L:C: plane: no triangles: the shape is endless"
+    /// What triangles of solids do not have of the meshes they are cut from, a line for each solid.
+    std::vector<std::string> lost;
 };
 
 /// Replaces each shape of a valid scene by a mesh within `tolerance` of it. Throws Error: Usage if

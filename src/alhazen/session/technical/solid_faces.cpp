@@ -169,9 +169,9 @@ bool FacedSolid::add_leaf(const AnyShape& shape, const Affine& world) {
     return true;
 }
 
-bool FacedSolid::inside(std::uint32_t node, const std::vector<bool>& in_leaf) const {
+bool FacedSolid::inside(std::uint32_t node, const Flags& in_leaf) const {
     const Node& n = nodes_[node];
-    if (n.leaf >= 0) return in_leaf[static_cast<std::size_t>(n.leaf)];
+    if (n.leaf >= 0) return in_leaf[static_cast<std::size_t>(n.leaf)] != 0;
     for (std::size_t k = 0; k < n.children.size(); ++k) {
         const bool in = inside(n.children[k], in_leaf);
         if (n.combine == Combine::Union && in) return true;
@@ -197,7 +197,7 @@ SolidWheel FacedSolid::wheel(const Vec3& p, const Vec3& tangent) const {
 
 SolidWheel FacedSolid::wheel_around(const Vec3& p, const Vec3& along, const Vec3& x) const {
     const Vec3 y = cross(along, x);
-    std::vector<bool> in_leaf(leaves_.size(), true);
+    Flags in_leaf(leaves_.size(), 1);
     struct Touching {
         std::uint32_t leaf;
         Vec3 normal;
@@ -207,7 +207,7 @@ SolidWheel FacedSolid::wheel_around(const Vec3& p, const Vec3& along, const Vec3
     for (std::uint32_t l = 0; l < leaves_.size(); ++l) {
         const Vec3 local = leaves_[l].inverse.point(p);
         const std::size_t before = touching.size();
-        for (std::uint32_t f = leaves_[l].first; f < leaves_[l].end && in_leaf[l]; ++f) {
+        for (std::uint32_t f = leaves_[l].first; f < leaves_[l].end && in_leaf[l] != 0; ++f) {
             const double value = faces_[f].value(local);
             if (std::abs(value) > kOnFace * leaves_[l].size) {
                 in_leaf[l] = value < 0.0;
@@ -216,7 +216,7 @@ SolidWheel FacedSolid::wheel_around(const Vec3& p, const Vec3& along, const Vec3
             const Vec3 n = normal(faces_[f], p);
             touching.push_back({l, n});
         }
-        if (!in_leaf[l]) touching.resize(before);
+        if (in_leaf[l] == 0) touching.resize(before);
     }
     for (const Touching& t : touching) {
         const double angle = std::atan2(dot(t.normal, y), dot(t.normal, x));
@@ -233,21 +233,21 @@ SolidWheel FacedSolid::wheel_around(const Vec3& p, const Vec3& along, const Vec3
     SolidWheel wheel;
     if (angles.size() < 2) return wheel;
     // True for each boundary whose following sector is solid.
-    std::vector<bool> solid;
+    Flags solid, in = in_leaf;
     for (std::size_t k = 0; k < angles.size(); ++k) {
         const double next = k + 1 < angles.size() ? angles[k + 1] : angles[0] + 2 * kPi;
         const double middle = 0.5 * (angles[k] + next);
         const Vec3 towards = std::cos(middle) * x + std::sin(middle) * y;
-        std::vector<bool> in = in_leaf;
+        for (const Touching& t : touching) in[t.leaf] = in_leaf[t.leaf];
         for (const Touching& t : touching) {
-            in[t.leaf] = in[t.leaf] && dot(t.normal, towards) < 0.0;
+            in[t.leaf] = in[t.leaf] != 0 && dot(t.normal, towards) < 0.0;
         }
         solid.push_back(inside(root_, in));
     }
     std::vector<Vec3> out;
     for (std::size_t k = 0; k < angles.size(); ++k) {
-        const bool before = solid[k == 0 ? angles.size() - 1 : k - 1];
-        if (before == solid[k]) continue;
+        const bool before = solid[k == 0 ? angles.size() - 1 : k - 1] != 0;
+        if (before == (solid[k] != 0)) continue;
         const double turned = angles[k] + (before ? 0.5 : -0.5) * kPi;
         out.push_back(std::cos(turned) * x + std::sin(turned) * y);
     }

@@ -79,6 +79,7 @@ class FacedSolid {
         std::int32_t leaf = -1;
         std::vector<std::uint32_t> children;
     };
+    using Flags = std::vector<std::uint8_t>;  ///< bytes: they are read far more often than made
     [[nodiscard]] bool add_object(const SceneDescription& d, std::size_t object,
                                   const Affine& world, std::uint32_t& node);
     [[nodiscard]] bool add_parts(const SceneDescription& d, Combine combine,
@@ -87,7 +88,7 @@ class FacedSolid {
     /// Angles of sectors count around `along` from `x`, perpendicular to it.
     [[nodiscard]] SolidWheel wheel_around(const Vec3& p, const Vec3& along, const Vec3& x) const;
     [[nodiscard]] bool add_leaf(const AnyShape& shape, const Affine& world);
-    [[nodiscard]] bool inside(std::uint32_t node, const std::vector<bool>& in_leaf) const;
+    [[nodiscard]] bool inside(std::uint32_t node, const Flags& in_leaf) const;
 
     std::vector<SolidFace> faces_;
     std::vector<SolidLeaf> leaves_;

@@ -4,7 +4,8 @@
 ///
 /// Source: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", Computer
 /// Aided Geometric Design 3(4), 1986. Differs: rational patches, by the quotient rule about the
-/// middle of the control points' box.
+/// middle of the control points' box, and by the control points of the derivatives' numerators,
+/// where terms of the quotient rule may cancel; the smaller counts.
 /// Conventions: derivatives are by the parameters of the unit square; bounds are of lengths.
 
 #include "alhazen/shapes/patches/bezier_net.h"

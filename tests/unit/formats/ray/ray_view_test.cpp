@@ -162,5 +162,12 @@ TEST(RayImporter, TakesAnAreaLightOfRadiusZeroForAPoint) {
     EXPECT_TRUE(import_ray(start + "u = (1,0,0); v = (0,1,0) }").says("lights with an extent"));
 }
 
+TEST(RayImporter, ANegativeAttenuationIsOneError) {
+    Imported i = import_ray(
+        "point_light { color = (1,1,1); position = (0,0,1); constant_attenuation_coeff = -1; }");
+    validate(i.scene, i.diagnostics);
+    EXPECT_EQ(i.errors(), 1u) << i.messages();
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -222,6 +222,56 @@ TEST(ConeShadows, SingleSidedSurfacesInOnePlaneDoNotShadeEachOther) {
     EXPECT_NEAR(film.at(0, 0).r, 0.8, 1e-12);
 }
 
+/// A prism from z = 1.5 to 2.5, whose upper half has a colour of its own.
+TriangleMesh prism(float upper) {
+    TriangleMesh mesh;
+    for (const double z : {1.5, 2.5}) {
+        for (const Vec2& p : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{0, 1.5}}) {
+            mesh.positions.push_back({p.x, p.y, z});
+            const float share = z > 2 ? upper : 1.0f;
+            mesh.colors.push_back({share, share, share, 1});
+        }
+    }
+    mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    return mesh;
+}
+
+TEST(ConeShadows, EachWallOfASolidTintsByItsOwnColour) {
+    // Slabs of thickness 1: white from z = 2 to 3, dark from 1 to 2.
+    const SolidTexture slabs{.kind = SolidTexture::Kind::Stripes,
+                             .color = {1, 1, 1, 1},
+                             .other = {0.125, 0.25, 0.5, 1},
+                             .origin = {0, 0, 2}};
+    Material material = tinted();
+    material.transmissive = {{1, 1, 1}, TextureId{0}};
+    for (const int shape : {0, 1, 2}) {
+        SceneMaker maker;
+        add_floor(maker);
+        maker.description().textures.push_back({"", slabs, {}});
+        const MaterialId id = maker.material(material);
+        if (shape == 0) maker.add(Sphere{{0, 0, 2}, 0.5}, id);
+        if (shape == 1) maker.add(BoxShape{{-1, -1, 1.5}, {1, 1, 2.5}}, id);
+        if (shape == 2) maker.add(maker.mesh(prism(1)), id);
+        expect_both(maker, kBesides, {}, {0.125, 0.25, 0.5});
+    }
+}
+
+TEST(ConeShadows, WallsOfAMeshTintByTheirVertexColours) {
+    SceneMaker maker;
+    add_floor(maker);
+    Material glass;
+    glass.index.value = 1;
+    MetallicRoughness& clear = glass.metallic_roughness.emplace();
+    clear.metallic.value = 0;
+    clear.roughness.value = 0;
+    clear.transmission.value = 1;
+    clear.thickness.value = 1;
+    clear.specular.value = 0;
+    maker.add(maker.mesh(prism(0.25)), maker.material(glass));
+    expect_both(maker, kBesides, {}, grey(0.25));
+}
+
 /// Random bodies above each other, with a light above or inside.
 class RandomPile {
   public:

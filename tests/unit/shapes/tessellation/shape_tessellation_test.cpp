@@ -77,6 +77,29 @@ TEST(PatchTessellation, IsWithinTheTolerance) {
     EXPECT_GT(triangles, 10000u);
 }
 
+TEST(PatchTessellation, AlongTheLinesOfACylinderOneCellIsEnough) {
+    // A quarter of a cylinder, rational along u and straight along v.
+    BezierPatch patch{.degree_u = 2, .degree_v = 1};
+    for (const auto& [x, y] : {std::pair{1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) {
+        patch.points.push_back({x, y, 0});
+        patch.points.push_back({x, y, 2});
+        const double weight = x == y ? std::sqrt(0.5) : 1.0;
+        patch.weights.insert(patch.weights.end(), 2, weight);
+    }
+    patch.prepare();
+    const BezierPiece piece{.net = patch.net()};
+    std::size_t before = 0;
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+        TriangleMesh mesh;
+        ASSERT_TRUE(append_triangles(piece, tolerance, kLimit, mesh));
+        // The chords of a circle are as many as the root of 1 / tolerance.
+        if (before > 0) {
+            EXPECT_LT(mesh.triangles.size(), 20 * before);
+        }
+        before = mesh.triangles.size();
+    }
+}
+
 template <class S>
 TriangleMesh mesh_of(S shape, double tolerance) {
     shape.prepare();
