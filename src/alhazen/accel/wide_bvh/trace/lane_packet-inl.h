@@ -69,6 +69,51 @@ HWY_INLINE float most_of(const PacketFloats& a) {
     return -least_of(-a);
 }
 
+/// The box of a tree with the slack of any ray that begins near: a ray that begins beside it and
+/// goes away from it hits nothing.
+struct TreeBox {
+    float lo[3], hi[3];
+
+    /// One that no ray leaves.
+    TreeBox() {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = -std::numeric_limits<float>::infinity();
+            hi[k] = std::numeric_limits<float>::infinity();
+        }
+    }
+    TreeBox(const WideNode& root, const FrameSlack& slack);
+
+    /// Which of sixteen rays certainly leave it; `rows`: origins and directions. A direction that
+    /// rounds to 0 keeps its sign.
+    template <std::size_t N>
+    [[nodiscard]] HWY_INLINE std::uint32_t left_by(const Lanes<float, N>* origin,
+                                                   const Lanes<float, N>* direction) const {
+        using F = Lanes<float, N>;
+        const F one(1.0f), zero(0.0f);
+        const auto leaves = [&](std::size_t k) HWY_ATTR {
+            const F way = copysign(one, direction[k]);
+            return origin[k] * way >= select_lanes(way > zero, F(hi[k]), F(-lo[k]));
+        };
+        // A NaN is near nothing by its bits.
+        const F far =
+            larger_by_bits(larger_by_bits(abs(origin[0]), abs(origin[1])), abs(origin[2]));
+        return bits_of((leaves(0) | leaves(1) | leaves(2)) & (far <= F(kNear)));
+    }
+
+  private:
+    static constexpr float kNear = 8.0f;
+};
+
+inline TreeBox::TreeBox(const WideNode& root, const FrameSlack& slack) {
+    // More than the slack, for the sum rounds.
+    const float more = 1.01f * slack.slab.at(kNear);
+    const std::uint32_t count = root.child_count();
+    for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = *std::min_element(root.planes[k], root.planes[k] + count) - more;
+        hi[k] = *std::max_element(root.planes[k + 3], root.planes[k + 3] + count) + more;
+    }
+}
+
 struct alignas(64) LanePacket {
     /// Groups of eight that are resolved together: two registers of double with AVX-512.
     static constexpr std::size_t kResolvedGroups = kPacketLanes == 32 ? 2 : 1;
@@ -96,10 +141,11 @@ struct alignas(64) LanePacket {
     };
     Pinhole pinhole;
 
-    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. `may_share`:
-    /// they are likely to begin in one point, with one range.
-    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const GivenRays& given,
-                                     std::uint32_t wanted, bool may_share);
+    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. Those that
+    /// leave `box` are no longer wanted. `may_share`: they are likely to begin in one point, with
+    /// one range.
+    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const TreeBox& box,
+                                     const GivenRays& given, std::uint32_t& wanted, bool may_share);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
 
@@ -149,12 +195,14 @@ struct alignas(64) LanePacket {
 
   private:
     static constexpr std::size_t kLoadedRays = 16;  ///< at a time
+    static constexpr std::size_t kLoads = kPacketLanes / kLoadedRays;
 
     using LoadedFloats = Lanes<float, kLoadedRays>;
 
-    HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const GivenRays& given);
-    HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame,
-                                                 const GivenRays& given);
+    HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const TreeBox& box,
+                                        const GivenRays& given, std::uint32_t& wanted);
+    HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame, const TreeBox& box,
+                                                 const GivenRays& given, std::uint32_t& wanted);
     HWY_INLINE LaneMask<float, kLoadedRays> store_start(const LoadedFloats* o,
                                                         const LoadedFloats& t_min,
                                                         const LoadedFloats& t_max, std::size_t at);
@@ -241,33 +289,41 @@ inline void LanePacket::take_group(std::size_t group, const GivenRays& given) {
     take_lanes(given.part(first, std::min(kRayLanes, given.size() - first)), rays[group]);
 }
 
-HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame,
-                                                const GivenRays& given) {
-    std::uint32_t usable = 0;
-    for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
-        LoadedFloats rows[8];
+HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame, const TreeBox& box,
+                                                const GivenRays& given, std::uint32_t& wanted) {
+    LoadedFloats rows[kLoads][8];
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
         if (HWY_UNLIKELY(given.size() < at + kLoadedRays)) {
             Ray repeated[kLoadedRays];
             for (std::size_t i = 0; i < kLoadedRays; ++i) {
                 Ray scratch;
                 repeated[i] = given.ray(std::min(at + i, given.size() - 1), scratch);
             }
-            load_local(lane_frame, repeated, rows);
+            load_local(lane_frame, repeated, rows[n]);
         } else if (given.columns() != nullptr) {
-            load_local(lane_frame, *given.columns(), given.first() + at, rows);
+            load_local(lane_frame, *given.columns(), given.first() + at, rows[n]);
         } else {
             load_local(lane_frame,
-                       std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows);
+                       std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows[n]);
         }
-        const auto begins = store_start(rows, rows[6], rows[7], at);
-        const auto moves = store_direction(lane_frame, rows + 3, at);
-        usable |= bits_of(begins & moves) << at;
+        wanted &= ~(box.left_by(rows[n], rows[n] + 3) << at);
+    }
+    if (wanted == 0) return 0;
+    std::uint32_t usable = 0;
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
+        const auto begins = store_start(rows[n], rows[n][6], rows[n][7], at);
+        usable |= bits_of(begins & store_direction(lane_frame, rows[n] + 3, at)) << at;
     }
     return usable;
 }
 
 HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_frame,
-                                                         const GivenRays& given) {
+                                                         const TreeBox& box, const GivenRays& given,
+                                                         std::uint32_t& wanted) {
     float ends[2], point[3];
     lane_frame.start_of(given, point, ends);
     const LoadedFloats o[3] = {LoadedFloats(point[0]), LoadedFloats(point[1]),
@@ -280,6 +336,7 @@ HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_f
         } else {
             load_directions(std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), d);
         }
+        wanted &= ~(box.left_by(o, d) << at);
         const auto begins = store_start(o, LoadedFloats(ends[0]), LoadedFloats(ends[1]), at);
         usable |= bits_of(begins & store_direction(lane_frame, d, at)) << at;
     }
@@ -288,12 +345,14 @@ HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_f
     return usable;
 }
 
-inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
-                                      std::uint32_t wanted, bool may_share) {
+inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const TreeBox& box,
+                                      const GivenRays& given, std::uint32_t& wanted,
+                                      bool may_share) {
     const LocalFrame& frame = lane_frame.frame;
     one_start_ = may_share && given.size() >= kPacketLanes && given.share_start<kPacketLanes>();
-    const std::uint32_t usable = wanted & (one_start_ ? load_from_one_start(lane_frame, given)
-                                                      : load_apart(lane_frame, given));
+    std::uint32_t usable = one_start_ ? load_from_one_start(lane_frame, box, given, wanted)
+                                      : load_apart(lane_frame, box, given, wanted);
+    usable &= wanted;
     if (usable == 0) return 0;
     float distance = 0.0f;
     if (one_start_) {
