@@ -130,7 +130,7 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
     const NodeRef root = layout.tree.root;
     TreeBox box;
     if (!Stats::kCounts && !root.is_leaf()) {
-        box = TreeBox(layout.tree.nodes[root.index()], layout.frame.slack);
+        box = TreeBox(layout.tree.nodes[root.index()], layout.frame.slack.slab);
     }
     const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
     for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {

@@ -34,7 +34,9 @@ struct TreeBox {
             hi[k] = 0x1p20f;
         }
     }
-    TreeBox(const WideNode& root, const FrameSlack& slack);
+    /// `slack`: of a box, as in `make_ray`.
+    template <std::size_t W>
+    TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack);
 
     /// Bits of the rays that begin beside it and go away. A direction that rounds to 0 keeps its
     /// sign.
@@ -70,9 +72,10 @@ struct TreeBox {
     }
 };
 
-inline TreeBox::TreeBox(const WideNode& root, const FrameSlack& slack) {
+template <std::size_t W>
+TreeBox::TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack) {
     // More than the slack, for the sum rounds.
-    const float more = 1.01f * slack.slab.at(kNear);
+    const float more = 1.01f * slack.at(kNear);
     const std::uint32_t count = root.child_count();
     for (std::size_t k = 0; k < 3; ++k) {
         lo[k] = *std::min_element(root.planes[k], root.planes[k] + count) - more;
