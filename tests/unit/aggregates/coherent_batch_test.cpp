@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -312,6 +313,50 @@ TEST(CoherentBatch, RangesThatFloatCannotTellHold) {
         }
         compare("ranges of no length at " + name, table, rays);
     }
+}
+
+/// A cube from -1 to 1, each side of 32 triangles.
+PrimitiveTable divided_cube() {
+    TableBuilder builder;
+    for (int side = 0; side < 6; ++side) {
+        for (int n = 0; n < 16; ++n) {
+            const auto corner = [&](int du, int dv) {
+                Vec3 p;
+                p[side / 2] = side % 2 == 0 ? -1 : 1;
+                p[(side / 2 + 1) % 3] = 0.5 * (n % 4 + du) - 1;
+                p[(side / 2 + 2) % 3] = 0.5 * (n / 4 + dv) - 1;
+                return p;
+            };
+            builder.add_triangle(corner(0, 0), corner(1, 0), corner(0, 1));
+            builder.add_triangle(corner(1, 0), corner(1, 1), corner(0, 1));
+        }
+    }
+    return builder.finish();
+}
+
+TEST(CoherentBatch, RaysBesideTheBoxOfTheTreeHitWhatTheListHits) {
+    // Rays that begin at a side of the box or beside it, and go away, along it or back, some by
+    // numbers that float does not tell from 0. Packets of one kind, and of several.
+    const PrimitiveTable cube = divided_cube();
+    RandomEngine random(21);
+    Rays rays;
+    for (const double beside : {0.0, 1e-15, 1e-9, 1e-7, 1e-6, 1e-5, 1e-3, 0.5, 20.0}) {
+        for (const double away : {1.0, 1e-60, 0.0, -0.0, -1e-60, -1e-30, -1e-3, -1.0}) {
+            for (const double along : {0.0, 1e-60, 0.1, 1.0}) {
+                const int axis = static_cast<int>(random() % 3);
+                const double side = random() % 2 == 0 ? -1 : 1;
+                for (int i = 0; i < 32; ++i) {
+                    Ray ray{uniform_point(random, 0.9), along * uniform_point(random, 1)};
+                    ray.origin[axis] = side * (1 + beside);
+                    ray.direction[axis] = side * away;
+                    rays.push_back(ray);
+                }
+            }
+        }
+    }
+    compare("packets beside a cube", cube, rays);
+    std::shuffle(rays.begin(), rays.end(), random);
+    compare("rays beside a cube", cube, rays);
 }
 
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {

@@ -126,7 +126,13 @@ inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
 template <class Leaves, class Sink, class Stats, class Otherwise>
 HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, const Sink& sink,
                           Stats stats, Otherwise&& otherwise) {
-    const LaneBatch batch{scene, prefetch_table_of(*scene.layout), {scene.layout->frame, rays}};
+    const WideBvhLayout& layout = *scene.layout;
+    const NodeRef root = layout.tree.root;
+    TreeBox box;
+    if (!Stats::kCounts && !root.is_leaf()) {
+        box = TreeBox(layout.tree.nodes[root.index()], layout.frame.slack.slab);
+    }
+    const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
     for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {
         const std::size_t count = std::min(kPacketLanes, rays.size() - i);
         if (rays.size() - i - count >= kPacketLanes) rays.prefetch<kPacketLanes>(i + count);

@@ -90,6 +90,7 @@ class BatchSource {
             root_box_[k + 3][0] = *std::ranges::max_element(
                 std::span(root_->planes[k + 3]).first(root_->child_count()));
         }
+        if (!Stats::kCounts) tree_box_ = TreeBox(*root_, Query::slab_slack(scene.layout->frame));
         if (scene.layout->is_indexed()) return;
         for (std::uint32_t i = 0; kLimits && i < root_->child_count(); ++i) {
             const NodeRef child = root_->child[i];
@@ -184,10 +185,11 @@ class BatchSource {
     HWY_INLINE void prepare(std::uint32_t waiting) {
         const FrameSlack& slack = scene_.layout->frame.slack;
         RayRows rays;
-        rays.load(frame_, Query::slab_slack(scene_.layout->frame), rays_, first_);
-        others_ = waiting & ~rays.prepared;
+        rays.load(frame_, Query::slab_slack(scene_.layout->frame), tree_box_, rays_, first_);
+        others_ = waiting & ~rays.prepared & ~rays.left;
         const std::uint32_t all = waiting & rays.prepared;
         prepared_ = all;
+        if (all == 0) return;
         if (HWY_LIKELY(root_ != nullptr)) {
             RayRows::F entry;
             prepared_ = all & bits_of(rays.meet(root_box_, 0, entry));
@@ -290,6 +292,7 @@ class BatchSource {
     LaneFrame frame_;
     const WideNodeOf<W>* root_ = nullptr;
     float root_box_[6][1] = {};  ///< as planes of a node
+    TreeBox tree_box_;           ///< rays that leave it are done; of rays that are counted, none
     [[no_unique_address]] Stats stats_;
     std::size_t first_ = 0, next_ = 0;
     std::uint32_t prepared_ = 0, others_ = 0;  ///< bits of the rays from first_ on

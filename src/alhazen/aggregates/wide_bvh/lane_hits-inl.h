@@ -16,6 +16,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -265,18 +266,53 @@ struct HitColumnsSink {
     }
 };
 
+/// Bits of the rays of a packet that are occluded.
+struct LaneOcclusion {
+    std::uint32_t hit = 0;
+};
+
 /// Whether rays are occluded; those that are already are not traced.
 struct OcclusionSink {
     std::span<bool> occluded;
 
-    HWY_INLINE std::uint32_t begin(std::size_t first, std::size_t count,
-                                   std::span<bool>& here) const {
-        here = occluded.subspan(first, count);
+    HWY_INLINE std::uint32_t begin(std::size_t first, std::size_t count, LaneOcclusion&) const {
+        if (kWhole && HWY_LIKELY(count == kPacketLanes)) return unset_of_all(&occluded[first]);
         std::uint32_t wanted = 0;
-        for (std::size_t i = 0; i < count; ++i) wanted |= std::uint32_t{!here[i]} << i;
+        for (std::size_t i = 0; i < count; ++i) wanted |= std::uint32_t{!occluded[first + i]} << i;
         return wanted;
     }
-    HWY_INLINE void end(std::size_t, std::size_t, const std::span<bool>&) const {}
+    HWY_INLINE void end(std::size_t first, std::size_t count, const LaneOcclusion& found) const {
+        if (kWhole && HWY_LIKELY(count == kPacketLanes)) {
+            return set_of_all(found.hit, &occluded[first]);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            occluded[first + i] = occluded[first + i] || (found.hit >> i & 1) != 0;
+        }
+    }
+
+  private:
+    /// A bool is a byte, 0 or 1, of which a register holds as many as a packet has rays.
+    using Tag = hn::CappedTag<std::uint8_t, kPacketLanes>;
+    static constexpr bool kWhole = hn::MaxLanes(Tag()) == kPacketLanes &&
+                                   std::endian::native == std::endian::little && sizeof(bool) == 1;
+
+    static HWY_INLINE std::uint32_t unset_of_all(const bool* place) {
+        const Tag d;
+        const auto bytes = hn::LoadU(d, reinterpret_cast<const std::uint8_t*>(place));
+        std::uint8_t bits[8] = {};  // as in bits_of
+        hn::StoreMaskBits(d, hn::Eq(bytes, hn::Zero(d)), bits);
+        std::uint32_t unset;
+        std::memcpy(&unset, bits, sizeof(unset));
+        return unset;
+    }
+    static HWY_INLINE void set_of_all(std::uint32_t hit, bool* place) {
+        const Tag d;
+        std::uint8_t bits[8] = {};
+        std::memcpy(bits, &hit, sizeof(hit));
+        std::uint8_t* const bytes = reinterpret_cast<std::uint8_t*>(place);
+        const auto set = hn::IfThenElseZero(hn::LoadMaskBits(d, bits), hn::Set(d, 1));
+        hn::StoreU(hn::Or(hn::LoadU(d, bytes), set), d, bytes);
+    }
 };
 HWY_INLINE void clear_unset(const OcclusionSink&, std::size_t, std::size_t) {}
 

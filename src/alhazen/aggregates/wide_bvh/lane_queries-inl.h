@@ -390,11 +390,11 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
 class OccludedLanes : public LaneLeaves<OccludedLanes> {
   public:
     static constexpr bool kOrdered = false;
-    using Results = std::span<bool>;
+    using Results = LaneOcclusion;
 
     HWY_INLINE OccludedLanes(const WideBvhScene& scene, const PrefetchTable* in_turn,
-                             const GivenRays& rays, std::span<bool> occluded, LanePacket& packet)
-        : LaneLeaves(scene, in_turn, rays, packet), results_(occluded) {}
+                             const GivenRays& rays, LaneOcclusion& results, LanePacket& packet)
+        : LaneLeaves(scene, in_turn, rays, packet), results_(results) {}
 
     [[nodiscard]] HWY_INLINE bool wants(std::uint32_t i) const { return (wanting_ >> i & 1) != 0; }
 
@@ -403,14 +403,11 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
     HWY_INLINE std::uint32_t found(TrianglePlace place, const FilteredLanes& found, Stats stats) {
         stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(found.sure)));
         std::uint32_t hit = found.sure;
-        for (std::uint32_t rest = hit; rest != 0; rest &= rest - 1) {
-            results_[static_cast<std::size_t>(std::countr_zero(rest))] = true;
-        }
         const std::uint32_t unsure = found.candidates & ~found.sure;
         if (unsure != 0) {
             alignas(64) TrianglePlace places[kPacketLanes];
             set_places(place, places);
-            resolve(unsure, places, Dropped{results_, hit}, stats);
+            resolve(unsure, places, Dropped{hit}, stats);
         }
         wanting_ &= ~hit;
         return hit;
@@ -431,7 +428,7 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
             alignas(64) TrianglePlace places[kPacketLanes];
             set_places(static_cast<TrianglePlace>(number * kBlockWidth + lane), places);
             std::uint32_t hit = 0;
-            resolve(1u << i, places, Dropped{results_, hit}, stats);
+            resolve(1u << i, places, Dropped{hit}, stats);
             if (hit != 0) return drop(i);
         }
         return false;
@@ -475,12 +472,7 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         return hit && drop(i);
     }
     /// Rays that certainly hit a shape.
-    HWY_INLINE void drop_all(std::uint32_t lanes) {
-        wanting_ &= ~lanes;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            results_[static_cast<std::size_t>(std::countr_zero(lanes))] = true;
-        }
-    }
+    HWY_INLINE void drop_all(std::uint32_t lanes) { wanting_ &= ~lanes; }
     /// False if the rays cannot wait for the test of a shape that the filter is not sure of.
     template <class Block>
     HWY_INLINE bool put_off(const Block& block, std::size_t lane, std::uint32_t rays) {
@@ -496,24 +488,21 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
                 if (rest != 0) (void)this->meet(block, lane, rest, stats);
                 return false;
             });
+        results_.hit = ~wanting_;
     }
 
   private:
     struct Dropped {
-        std::span<bool> results;
         std::uint32_t& hit;
-        void operator()(std::size_t i, PrimitiveId, const ShapeHit&) const {
-            results[i] = true;
-            hit |= 1u << i;
-        }
+        void operator()(std::size_t i, PrimitiveId, const ShapeHit&) const { hit |= 1u << i; }
     };
 
     HWY_INLINE bool drop(std::size_t i) {
         wanting_ &= ~(1u << i);
-        return results_[i] = true;
+        return true;
     }
 
-    std::span<bool> results_;
+    LaneOcclusion& results_;
     std::uint32_t wanting_ = ~0u;
     WaitingShapes<32> waiting_;
 };
@@ -523,6 +512,7 @@ struct LaneBatch {
     const WideBvhScene& scene;
     PrefetchTable prefetch_table;
     LaneFrame frame;
+    TreeBox box;  ///< rays that leave it are not traced; of rays that are counted, none
 };
 
 /// Traces up to kPacketLanes rays, those of `wanted`; bits of those that are left to be traced
@@ -534,7 +524,7 @@ HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& 
     const WideBvh& tree = batch.scene.layout->tree;
     LanePacket packet;
     // Shadow rays end in one point, if in any.
-    std::uint32_t rest = packet.load(batch.frame, rays, wanted, Leaves::kOrdered);
+    std::uint32_t rest = packet.load(batch.frame, batch.box, rays, wanted, Leaves::kOrdered);
     const std::uint32_t alone = wanted & ~rest;
     if (rest == 0) return alone;
     Leaves leaves(batch.scene, batch.scene.waits ? &batch.prefetch_table : nullptr, rays, results,

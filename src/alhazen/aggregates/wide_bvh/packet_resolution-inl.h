@@ -145,6 +145,8 @@ class PacketResolution {
     HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
                                            Corners& corners, Ids& ids) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        const TrianglePlace first = places[std::countr_zero(lanes)];
+        if ((lanes & ~lanes_with(places, first)) == 0) return take_one(first, corners, ids);
         LocalCorners local = {};
         ids = Ids(0.0f);
         if constexpr (kHoldsRow) {
@@ -159,6 +161,25 @@ class PacketResolution {
             HWY_UNROLL(3)
             for (std::size_t i = 0; i < 3; ++i) {
                 corners[i][k] = Reals(frame.inverse_scale) * as_doubles(local[i][k]) + center;
+            }
+        }
+        return true;
+    }
+    /// The same of one triangle, for all lanes.
+    HWY_INLINE bool take_one(TrianglePlace place, Corners& corners, Ids& ids) const {
+        const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
+        const std::size_t lane = place % kBlockWidth;
+        if (!block.ids[lane].exact()) return false;
+        ids = bits_as_lanes(block.ids[lane].id());
+        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        const LocalFrame& frame = scene_.layout->frame;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double center = (&frame.center.x)[axes[k]];
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto local = static_cast<double>(block.vertex[i][axes[k]][lane]);
+                corners[i][k] = Reals(frame.inverse_scale * local + center);
             }
         }
         return true;

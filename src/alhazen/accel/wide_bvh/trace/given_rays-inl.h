@@ -377,6 +377,30 @@ HWY_INLINE void take_lanes_whole(std::span<const Ray, kRayLanes> rays, RayLanes&
 }
 #endif
 
+#if HWY_CAP_GE512
+/// Eight rays that share their beginnings and ranges: only directions are turned about.
+HWY_INLINE void take_lanes_of_start(std::span<const Ray, kRayLanes> rays, RayLanes& lanes) {
+    const hn::CappedTag<double, 8> d;
+    const hn::CappedTag<double, 4> half;
+    // [i] x, y | z, t_min of rays i and i + 4.
+    const auto pair = [&](std::size_t i) HWY_ATTR {
+        return hn::Combine(d, hn::LoadU(half, &rays[i + 4].direction.x),
+                           hn::LoadU(half, &rays[i].direction.x));
+    };
+    const auto p0 = pair(0), p1 = pair(1), p2 = pair(2), p3 = pair(3);
+    const auto xz01 = hn::InterleaveLower(d, p0, p1), xz23 = hn::InterleaveLower(d, p2, p3);
+    const auto y01 = hn::InterleaveUpper(d, p0, p1), y23 = hn::InterleaveUpper(d, p2, p3);
+    hn::Store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(xz23), xz01), d, lanes.direction[0]);
+    hn::Store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(y23), y01), d, lanes.direction[1]);
+    hn::Store(hn::OddEvenBlocks(xz23, hn::SwapAdjacentBlocks(xz01)), d, lanes.direction[2]);
+    hn::Store(hn::Set(d, rays[0].origin.x), d, lanes.origin[0]);
+    hn::Store(hn::Set(d, rays[0].origin.y), d, lanes.origin[1]);
+    hn::Store(hn::Set(d, rays[0].origin.z), d, lanes.origin[2]);
+    hn::Store(hn::Set(d, rays[0].t_min), d, lanes.t_min);
+    hn::Store(hn::Set(d, rays[0].t_max), d, lanes.t_max);
+}
+#endif
+
 /// Up to eight rays in double, in lanes; the last is repeated.
 HWY_INLINE void take_lanes(const GivenRays& rays, RayLanes& lanes) {
     const RayColumns* const columns = rays.columns();

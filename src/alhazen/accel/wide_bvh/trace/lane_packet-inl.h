@@ -34,6 +34,7 @@
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/given_rays-inl.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray.h"
+#include "alhazen/accel/wide_bvh/trace/tree_box-inl.h"
 #include "alhazen/simd/lane_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -96,10 +97,11 @@ struct alignas(64) LanePacket {
     };
     Pinhole pinhole;
 
-    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. `may_share`:
-    /// they are likely to begin in one point, with one range.
-    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const GivenRays& given,
-                                     std::uint32_t wanted, bool may_share);
+    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. Those that
+    /// are found to miss `box` are no longer wanted. `may_share`: they are likely to begin in one
+    /// point, with one range.
+    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const TreeBox& box,
+                                     const GivenRays& given, std::uint32_t& wanted, bool may_share);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
 
@@ -149,17 +151,21 @@ struct alignas(64) LanePacket {
 
   private:
     static constexpr std::size_t kLoadedRays = 16;  ///< at a time
+    static constexpr std::size_t kLoads = kPacketLanes / kLoadedRays;
 
     using LoadedFloats = Lanes<float, kLoadedRays>;
 
-    HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const GivenRays& given);
-    HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame,
-                                                 const GivenRays& given);
+    HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const TreeBox& box,
+                                        const GivenRays& given, std::uint32_t& wanted);
+    HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame, const TreeBox& box,
+                                                 const GivenRays& given, std::uint32_t& wanted);
     HWY_INLINE LaneMask<float, kLoadedRays> store_start(const LoadedFloats* o,
                                                         const LoadedFloats& t_min,
                                                         const LoadedFloats& t_max, std::size_t at);
-    HWY_INLINE LaneMask<float, kLoadedRays> store_direction(const LaneFrame& lane_frame,
-                                                            const LoadedFloats* d, std::size_t at);
+    HWY_INLINE void set_errors(const FrameSlack& slack, float distance);
+    template <std::size_t N>
+    HWY_INLINE void store_slab(std::size_t k, const Lanes<float, N>& o, const Lanes<float, N>& r,
+                               std::size_t at);
     void take_group(std::size_t group, const GivenRays& given);
     void make_frustum(std::uint32_t set, std::size_t first);
 
@@ -224,105 +230,154 @@ HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_start(
     const F far = larger_by_bits(larger_by_bits(abs(o[0]), abs(o[1])), abs(o[2]));
     return (t_min < t_max) & (copysign(F(1.0f), t_min) > F(0.0f)) & (far <= F(8.0f));
 }
-/// Likewise of directions.
-HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_direction(
-    const LaneFrame& lane_frame, const LoadedFloats* d, std::size_t at) {
-    using F = LoadedFloats;
-    HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) store_lanes(d[k], direction[k] + at);
+/// Which directions are neither too short nor too long.
+HWY_INLINE LaneMask<float, 16> of_usable_length(const LaneFrame& lane_frame,
+                                                const Lanes<float, 16>* d) {
+    using F = Lanes<float, 16>;
     const F most = larger_by_bits(larger_by_bits(abs(d[0]), abs(d[1])), abs(d[2]));
     return (most <= F(0x1p40f)) & (most >= F(lane_frame.frame.slack.least_length));
 }
 
+HWY_INLINE void LanePacket::set_errors(const FrameSlack& slack, float distance) {
+    slack_ = slack.slab.at(distance);
+    const float reach = slack.reach.at(distance), delta = slack.delta.at(distance);
+    const float unit = 0x1p-24f, error = 13.2f * unit * reach + 4.0f * delta;
+    near_error = 2.2f * unit * reach + 4.0f * delta;
+    place_error = 14.2f * unit * reach + 4.0f * delta;
+    edge_slack = 5.12f * error;
+    edge_slack_min = 2.12f * error * error;
+}
+
+/// As make_slab_ray.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> reciprocal_of(const Lanes<float, N>& d) {
+    using F = Lanes<float, N>;
+    return F(1.0f) / copysign(larger_by_bits(abs(d), F(0x1p-100f)), d);
+}
+template <std::size_t N>
+HWY_INLINE void LanePacket::store_slab(std::size_t k, const Lanes<float, N>& o,
+                                       const Lanes<float, N>& r, std::size_t at) {
+    using F = Lanes<float, N>;
+    const F c = -(o * r), aside = F(slack_) * abs(r);
+    store_lanes(r, reciprocal[k] + at);
+    store_lanes(c - aside, near_offset[k] + at);
+    store_lanes(c + aside, far_offset[k] + at);
+}
+
 inline void LanePacket::take_group(std::size_t group, const GivenRays& given) {
     laid_out_[group] = true;
+#if HWY_CAP_GE512
+    if (one_start_ && given.columns() == nullptr) {
+        return take_lanes_of_start(
+            std::span<const Ray, kRayLanes>(given.array() + group * kRayLanes, kRayLanes),
+            rays[group]);
+    }
+#endif
     // A group without rays repeats the last ray.
     const std::size_t first = std::min(group * kRayLanes, given.size() - 1);
     take_lanes(given.part(first, std::min(kRayLanes, given.size() - first)), rays[group]);
 }
 
-HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame,
-                                                const GivenRays& given) {
-    std::uint32_t usable = 0;
-    for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
-        LoadedFloats rows[8];
+HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame, const TreeBox& box,
+                                                const GivenRays& given, std::uint32_t& wanted) {
+    LoadedFloats rows[kLoads][8];
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
         if (HWY_UNLIKELY(given.size() < at + kLoadedRays)) {
             Ray repeated[kLoadedRays];
             for (std::size_t i = 0; i < kLoadedRays; ++i) {
                 Ray scratch;
                 repeated[i] = given.ray(std::min(at + i, given.size() - 1), scratch);
             }
-            load_local(lane_frame, repeated, rows);
+            load_local(lane_frame, repeated, rows[n]);
         } else if (given.columns() != nullptr) {
-            load_local(lane_frame, *given.columns(), given.first() + at, rows);
+            load_local(lane_frame, *given.columns(), given.first() + at, rows[n]);
         } else {
             load_local(lane_frame,
-                       std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows);
+                       std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows[n]);
         }
-        const auto begins = store_start(rows, rows[6], rows[7], at);
-        const auto moves = store_direction(lane_frame, rows + 3, at);
-        usable |= bits_of(begins & moves) << at;
+        wanted &= ~(box.left_by(rows[n], rows[n] + 3) << at);
+    }
+    if (wanted == 0) return 0;
+    std::uint32_t usable = 0;
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
+        const LoadedFloats* const d = rows[n] + 3;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) store_lanes(d[k], direction[k] + at);
+        const auto begins = store_start(rows[n], rows[n][6], rows[n][7], at);
+        usable |= bits_of(begins & of_usable_length(lane_frame, d)) << at;
+    }
+    usable &= wanted;
+    if (usable == 0) return 0;
+    PacketFloats most(0.0f);
+    for (const PacketRow& row : origin) most = max_lanes(most, abs(load_row(row)));
+    set_errors(lane_frame.frame.slack,
+               most_of(select_lanes(lanes_of_bits<float, kPacketLanes>(usable), most,
+                                    PacketFloats(0.0f))));
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        store_slab(k, load_row(origin[k]), reciprocal_of(load_row(direction[k])), 0);
     }
     return usable;
 }
 
 HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_frame,
-                                                         const GivenRays& given) {
-    float ends[2], point[3];
+                                                         const TreeBox& box, const GivenRays& given,
+                                                         std::uint32_t& wanted) {
+    float ends[2], point[3], distance = 0.0f;
     lane_frame.start_of(given, point, ends);
+    for (std::size_t k = 0; k < 3; ++k) {
+        // Written so that a NaN is far.
+        if (!(std::abs(point[k]) <= TreeBox::kNear)) return 0;
+        distance = std::max(distance, std::abs(point[k]));
+    }
+    LoadedFloats d[kLoads][3], r[kLoads][3];
+    std::uint32_t usable = 0, missed = 0;
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
+        if (given.columns() != nullptr) {
+            load_directions(*given.columns(), given.first() + at, d[n]);
+        } else {
+            load_directions(std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays),
+                            d[n]);
+        }
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) r[n][k] = reciprocal_of(d[n][k]);
+        usable |= bits_of(of_usable_length(lane_frame, d[n])) << at;
+        missed |= box.missed_from(point, r[n]) << at;
+    }
+    wanted &= ~(missed & usable);
+    if ((wanted & usable) == 0) return 0;
+    set_errors(lane_frame.frame.slack, distance);
     const LoadedFloats o[3] = {LoadedFloats(point[0]), LoadedFloats(point[1]),
                                LoadedFloats(point[2])};
-    std::uint32_t usable = 0;
-    for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
-        LoadedFloats d[3];
-        if (given.columns() != nullptr) {
-            load_directions(*given.columns(), given.first() + at, d);
-        } else {
-            load_directions(std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), d);
+    std::uint32_t begun = 0;
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < kLoads; ++n) {
+        const std::size_t at = n * kLoadedRays;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            store_lanes(d[n][k], direction[k] + at);
+            store_slab(k, o[k], r[n][k], at);
         }
         const auto begins = store_start(o, LoadedFloats(ends[0]), LoadedFloats(ends[1]), at);
-        usable |= bits_of(begins & store_direction(lane_frame, d, at)) << at;
+        begun |= bits_of(begins) << at;
     }
     for (std::size_t k = 0; k < 3; ++k) start_[k] = point[k];
     start_[3] = s_min[0];
-    return usable;
+    return usable & begun & wanted;
 }
 
-inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
-                                      std::uint32_t wanted, bool may_share) {
-    const LocalFrame& frame = lane_frame.frame;
+inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const TreeBox& box,
+                                      const GivenRays& given, std::uint32_t& wanted,
+                                      bool may_share) {
     one_start_ = may_share && given.size() >= kPacketLanes && given.share_start<kPacketLanes>();
-    const std::uint32_t usable = wanted & (one_start_ ? load_from_one_start(lane_frame, given)
-                                                      : load_apart(lane_frame, given));
-    if (usable == 0) return 0;
-    float distance = 0.0f;
-    if (one_start_) {
-        for (std::size_t k = 0; k < 3; ++k) distance = std::max(distance, std::abs(start_[k]));
-    } else {
-        PacketFloats most(0.0f);
-        for (const PacketRow& row : origin) most = max_lanes(most, abs(load_row(row)));
-        distance = most_of(
-            select_lanes(lanes_of_bits<float, kPacketLanes>(usable), most, PacketFloats(0.0f)));
-    }
-    slack_ = frame.slack.slab.at(distance);
-    const float reach = frame.slack.reach.at(distance), delta = frame.slack.delta.at(distance);
-    const float unit = 0x1p-24f, error = 13.2f * unit * reach + 4.0f * delta;
-    near_error = 2.2f * unit * reach + 4.0f * delta;
-    place_error = 14.2f * unit * reach + 4.0f * delta;
-    edge_slack = 5.12f * error;
-    edge_slack_min = 2.12f * error * error;
-    HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) {
-        // As make_slab_ray.
-        const PacketFloats d = load_row(direction[k]);
-        const PacketFloats r =
-            PacketFloats(1.0f) / copysign(larger_by_bits(abs(d), PacketFloats(0x1p-100f)), d);
-        const PacketFloats c = -(load_row(origin[k]) * r), aside = PacketFloats(slack_) * abs(r);
-        store_lanes(r, reciprocal[k]);
-        store_lanes(c - aside, near_offset[k]);
-        store_lanes(c + aside, far_offset[k]);
-    }
-    return usable;
+    return one_start_ ? load_from_one_start(lane_frame, box, given, wanted)
+                      : load_apart(lane_frame, box, given, wanted);
 }
 
 inline std::uint32_t LanePacket::choose_set(std::uint32_t among) {

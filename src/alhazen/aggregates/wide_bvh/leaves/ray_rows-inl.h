@@ -18,6 +18,7 @@
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/given_rays-inl.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray.h"
+#include "alhazen/accel/wide_bvh/trace/tree_box-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -36,14 +37,15 @@ struct RayRows {
     F longest, distance;     ///< largest components of direction and origin
     F begin, end;            ///< of the range, in the range of float
     std::uint32_t prepared;  ///< bits of the rays that all this holds for
+    std::uint32_t left;      ///< bits of other rays, which leave the box of the tree
 
     // Not defaulted, as for LaneMask.
     HWY_INLINE RayRows() {}
 
     /// Prepares those from `first` on for nodes. Prepared are those that `make_ray_nearby` accepts,
-    /// except a few. `bound`: as in `make_ray`.
-    HWY_INLINE void load(const LaneFrame& frame, const DistanceBound& bound, const GivenRays& rays,
-                         std::size_t first);
+    /// except a few. `bound`: as in `make_ray`. If all leave `box`, nothing else is set.
+    HWY_INLINE void load(const LaneFrame& frame, const DistanceBound& bound, const TreeBox& box,
+                         const GivenRays& rays, std::size_t first);
     /// Bits of the rays that meet a box: rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z, of which this is
     /// column i; where they enter it.
     template <std::size_t N>
@@ -55,8 +57,11 @@ struct RayRows {
 };
 
 HWY_INLINE void RayRows::load(const LaneFrame& frame, const DistanceBound& bound,
-                              const GivenRays& rays, std::size_t first) {
+                              const TreeBox& box, const GivenRays& rays, std::size_t first) {
     load_local(frame, rays, first, local);
+    prepared = 0;
+    left = box.left_by(local, local + 3);
+    if (left == (1u << kRays) - 1) return;
     const F* const origin = local;
     const F* const direction = local + 3;
     const F d0 = abs(direction[0]), d1 = abs(direction[1]), d2 = abs(direction[2]);
@@ -69,7 +74,8 @@ HWY_INLINE void RayRows::load(const LaneFrame& frame, const DistanceBound& bound
     // Sums propagate a NaN. Ends that are equal in float, or -0, may be out of order in double.
     prepared = bits_of((o0 + o1 + o2 <= F(8.0f)) & (d0 + d1 + d2 <= F(0x1p40f)) &
                        (longest >= F(frame.frame.slack.least_length)) & (local[6] < local[7]) &
-                       (copysign(one, local[6]) > zero));
+                       (copysign(one, local[6]) > zero)) &
+               ~left;
     const F space = mul_add(distance, F(bound.slope), F(bound.constant));
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {

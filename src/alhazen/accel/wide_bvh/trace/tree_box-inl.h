@@ -1,0 +1,90 @@
+/// The box of a tree, which many rays miss: they are done before anything else is computed of them.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h). Sets of rays are bits.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TREE_BOX_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TREE_BOX_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TREE_BOX_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_TREE_BOX_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/nodes/local_frame.h"
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The box of a tree with the slack of any ray that begins near: a ray that does not meet it hits
+/// nothing.
+struct TreeBox {
+    static constexpr float kNear = 8.0f;  ///< largest coordinate of a beginning
+    float lo[3], hi[3];
+
+    /// One that all rays meet which begin near.
+    TreeBox() {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = -0x1p20f;
+            hi[k] = 0x1p20f;
+        }
+    }
+    /// `slack`: of a box, as in `make_ray`.
+    template <std::size_t W>
+    TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack);
+
+    /// Bits of the rays that begin beside it and go away. A direction that rounds to 0 keeps its
+    /// sign.
+    template <std::size_t N>
+    [[nodiscard]] HWY_INLINE std::uint32_t left_by(const Lanes<float, N>* origin,
+                                                   const Lanes<float, N>* direction) const {
+        using F = Lanes<float, N>;
+        const F one(1.0f), zero(0.0f);
+        const auto leaves = [&](std::size_t k) HWY_ATTR {
+            const F way = copysign(one, direction[k]);
+            return origin[k] * way >= select_lanes(way > zero, F(hi[k]), F(-lo[k]));
+        };
+        // A NaN is near nothing by its bits.
+        const F far =
+            larger_by_bits(larger_by_bits(abs(origin[0]), abs(origin[1])), abs(origin[2]));
+        return bits_of((leaves(0) | leaves(1) | leaves(2)) & (far <= F(kNear)));
+    }
+    /// Bits of the rays from a point that miss it, by the reciprocals of their directions. The
+    /// rounding of differences and products is less than that of SlabRay.
+    template <std::size_t N>
+    [[nodiscard]] HWY_INLINE std::uint32_t missed_from(const float (&point)[3],
+                                                       const Lanes<float, N>* reciprocal) const {
+        using F = Lanes<float, N>;
+        F entry(0.0f), exit;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const F a = F(lo[k] - point[k]) * reciprocal[k],
+                    b = F(hi[k] - point[k]) * reciprocal[k];
+            entry = max_lanes(entry, min_lanes(a, b));
+            exit = k == 0 ? max_lanes(a, b) : min_lanes(exit, max_lanes(a, b));
+        }
+        return bits_of(entry > exit);
+    }
+};
+
+template <std::size_t W>
+TreeBox::TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack) {
+    // More than the slack, for the sum rounds.
+    const float more = 1.01f * slack.at(kNear);
+    const std::uint32_t count = root.child_count();
+    for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = *std::min_element(root.planes[k], root.planes[k] + count) - more;
+        hi[k] = *std::max_element(root.planes[k + 3], root.planes[k + 3] + count) + more;
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
