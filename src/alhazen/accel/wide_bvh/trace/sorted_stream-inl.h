@@ -80,6 +80,21 @@ class StepLists {
             then(*taken.slots[i]);
         }
     }
+    /// As `take`, two rays at a time: two(slot, slot), one(slot) for the last of an odd number.
+    /// Calls then(slot) for each when the next two are done.
+    template <class Two, class One, class Then>
+    HWY_INLINE void take_pairs(NextStep step, Two&& two, One&& one, Then&& then) {
+        const Taken taken = take_list(step);
+        std::size_t i = 0;
+        for (; i + 1 < taken.count; i += 2) {
+            two(*taken.slots[i], *taken.slots[i + 1]);
+            if (i == 0) continue;
+            then(*taken.slots[i - 2]);
+            then(*taken.slots[i - 1]);
+        }
+        if (i < taken.count) one(*taken.slots[i]);
+        for (i -= std::min<std::size_t>(i, 2); i < taken.count; ++i) then(*taken.slots[i]);
+    }
 
   private:
     static constexpr std::size_t kSteps = 4;
@@ -127,9 +142,7 @@ class SortedStream {
             const bool idle = lists_.count(NextStep::Node) == 0;
             const std::size_t leaves = lists_.count(NextStep::Leaf);
             if (leaves >= kEnough || (idle && leaves > 0)) {
-                lists_.template take<kLeavesBehind>(
-                    NextStep::Leaf, [&](Slot& slot) HWY_ATTR { visit_leaf(slot); },
-                    [&](Slot& slot) HWY_ATTR { queue(slot, slot.query().waits()); });
+                visit_leaves();
                 lists_.take(NextStep::Settle, [&](Slot& slot) HWY_ATTR { settle(slot); });
             }
             const bool starved =
@@ -200,11 +213,35 @@ class SortedStream {
         slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                                 query.slabs.near.octant);
     }
-    HWY_INLINE void visit_leaf(Slot& slot) {
+    HWY_INLINE void visit_leaves() {
+        const auto one = [&](Slot& slot) HWY_ATTR { visit_leaf(slot, take_leaf(slot)); };
+        const auto then = [&](Slot& slot) HWY_ATTR { queue(slot, slot.query().waits()); };
+        if constexpr (Query::kPairs) {
+            lists_.take_pairs(
+                NextStep::Leaf,
+                [&](Slot& a, Slot& b) HWY_ATTR {
+                    const NodeRef of_a = take_leaf(a), of_b = take_leaf(b);
+                    if (HWY_LIKELY(
+                            Query::filter_blocks(a.query(), of_a, b.query(), of_b, stats_))) {
+                        return;
+                    }
+                    visit_leaf(a, of_a);
+                    visit_leaf(b, of_b);
+                },
+                one, then);
+        } else {
+            lists_.template take<kLeavesBehind>(NextStep::Leaf, one, then);
+        }
+    }
+    /// Removes the first block of a leaf from the stack.
+    HWY_INLINE NodeRef take_leaf(Slot& slot) {
         const std::size_t top = slot.height - 1;
         const NodeRef leaf = NodeRef::from_bits(slot.stack.child[top]);
         slot.stack.child[top] = leaf.after_first_block().bits();
         slot.height = top + (leaf.count() > 1);
+        return leaf;
+    }
+    HWY_INLINE void visit_leaf(Slot& slot, NodeRef leaf) {
         Query& query = slot.query();
         const float s_max = query.s_max;
         if (query.filter_block(leaf, stats_)) return slot.stop();
