@@ -403,7 +403,7 @@ struct LeafQuery {
     HWY_INLINE bool visit_indices(const IndexBlock& block, Stats stats) {
         const std::uint32_t used = used_lanes(block);
         stats.primitives(used);
-        TrianglePairs pairs{};
+        TrianglePairs<> pairs{};
         for (std::size_t lane = 0; lane < used; ++lane) {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});

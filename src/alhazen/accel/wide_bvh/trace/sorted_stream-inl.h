@@ -123,10 +123,12 @@ template <class Query, std::size_t W, class Source, class Stats>
 class SortedStream {
   public:
     HWY_INLINE SortedStream(const WideNodeOf<W>* nodes, NodeRef root,
-                            const PrefetchTable& prefetch_table, Source& source, Stats stats)
+                            const PrefetchTable& prefetch_table, bool fetches, Source& source,
+                            Stats stats)
         : nodes_(nodes),
           root_(root),
           prefetch_table_(prefetch_table),
+          fetches_(fetches),
           source_(source),
           stats_(stats) {}
 
@@ -199,7 +201,7 @@ class SortedStream {
     /// `waits`: a leaf is to be settled before.
     HWY_INLINE void queue(Slot& slot, bool waits = false) {
         const std::uint32_t next = slot.stack.child[slot.height - 1];
-        prefetch_table_.prefetch(next);
+        if (fetches_) prefetch_table_.prefetch(next);
         lists_.add(kNextSteps[waits][next >> 28], slot);
     }
     HWY_INLINE void visit_node(Slot& slot) {
@@ -266,17 +268,21 @@ class SortedStream {
     const WideNodeOf<W>* nodes_;
     NodeRef root_;
     const PrefetchTable& prefetch_table_;
+    const bool fetches_;
     Source& source_;
     [[no_unique_address]] Stats stats_;
     StepLists<Slot, kBatchSlots> lists_;
     Slot slots_[kBatchSlots];
 };
 
-/// Traces every ray of `source` through the tree.
+/// Traces every ray of `source` through the tree. `fetches`: whether nodes and leaves are
+/// prefetched.
 template <class Query, std::size_t W, class Source, class Stats>
 HWY_INLINE void traverse_sorted(const WideNodeOf<W>* nodes, NodeRef root,
-                                const PrefetchTable& prefetch_table, Source& source, Stats stats) {
-    SortedStream<Query, W, Source, Stats> stream(nodes, root, prefetch_table, source, stats);
+                                const PrefetchTable& prefetch_table, bool fetches, Source& source,
+                                Stats stats) {
+    SortedStream<Query, W, Source, Stats> stream(nodes, root, prefetch_table, fetches, source,
+                                                 stats);
     stream.run();
 }
 
