@@ -121,10 +121,11 @@ inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
             {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)}};
 }
 
-/// Whether packets in lanes are faster than the stream: what a ray does when it goes on alone takes
-/// longer there than some ten of its visits with the others.
-[[nodiscard]] HWY_INLINE bool pays(const LaneWork& work) {
-    return work.together >= 10 * work.alone;
+/// Whether packets in lanes of `rays` rays were faster than the stream: what a ray does when it
+/// goes on alone takes longer there than some fourteen of its visits with the others. Where only
+/// every third ray does so once, there is little to gain.
+[[nodiscard]] HWY_INLINE bool pays(const LaneWork& work, std::size_t rays) {
+    return work.together >= 14 * work.alone || 3 * work.alone <= rays;
 }
 
 /// The rays of packets that are tried together.
@@ -147,6 +148,7 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
                 continue;
             }
         }
+        const std::size_t first = i;
         LaneWork work;
         for (; i < end; i += kPacketLanes) {
             const std::size_t count = std::min(kPacketLanes, rays.size() - i);
@@ -160,7 +162,7 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
                 otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
             }
         }
-        if constexpr (kTries) trials.tried(!pays(work));
+        if constexpr (kTries) trials.tried(!pays(work, end - first));
     }
 }
 /// Traces all of them in packets.

@@ -28,7 +28,7 @@ namespace HWY_NAMESPACE {
 
 /// How far the rays of packets go together.
 struct LaneWork {
-    std::uint32_t together = 0;  ///< visits of nodes, each counted for every ray of the packet
+    std::uint32_t together = 0;  ///< visits of nodes and leaves, each counted for all of its rays
     std::uint32_t alone = 0;     ///< times that a ray goes on alone
 };
 
@@ -103,8 +103,10 @@ HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
     NodeRef ref = root;
     while (true) {
         const int count = std::popcount(lanes);
+        if constexpr (!Leaf::kOrdered) {
+            (count < least_lanes ? work.alone : work.together) += static_cast<std::uint32_t>(count);
+        }
         if (count < least_lanes) {
-            if constexpr (!Leaf::kOrdered) work.alone += static_cast<std::uint32_t>(count);
             leaf.go_alone(ref, lanes, stats);
         } else if (ref.is_leaf()) {
             leaf.visit(ref, lanes, stats);
@@ -112,7 +114,6 @@ HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
             const WideNode& node = nodes[ref.index()];
             stats.nodes(1);
             stats.boxes(node.child_count());
-            if constexpr (!Leaf::kOrdered) work.together += static_cast<std::uint32_t>(count);
             MetSubtree nearest;
             height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height, prefetch_table,
                                               nearest);

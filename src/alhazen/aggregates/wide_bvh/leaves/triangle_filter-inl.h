@@ -148,8 +148,7 @@ HWY_INLINE void filter_two([[maybe_unused]] const RayAtTriangles& a,
     if constexpr (kPairsTriangles) {
         using F = Lanes<float, 2 * kBlockWidth>;
         const auto of_b = lanes_of_bits<float, 2 * kBlockWidth>(kAllLanes << kBlockWidth);
-        const auto each = [&](float x, float y)
-                              HWY_ATTR { return select_lanes(of_b, F(y), F(x)); };
+        const auto each = [&](float x, float y) HWY_ATTR { return select_lanes(of_b, F(y), F(x)); };
         const auto row = [&](std::size_t i, std::size_t x, std::size_t y) HWY_ATTR {
             return joined(load_lanes(a.block.vertex[i][x]), load_lanes(b.block.vertex[i][y]));
         };
@@ -176,20 +175,19 @@ HWY_INLINE void filter_two([[maybe_unused]] const RayAtTriangles& a,
                                       each(a.ray.near_error, b.ray.near_error), lo, hi);
         const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
         // Written so that a NaN is a candidate and not sure.
-        const std::uint32_t candidates = ~bits_of(
-            ((least < -fine) & (most > fine)) | (lo > each(a.s_max, b.s_max)) |
-            (hi < each(a.s_min, b.s_min)));
+        const std::uint32_t candidates =
+            ~bits_of(((least < -fine) & (most > fine)) | (lo > each(a.s_max, b.s_max)) |
+                     (hi < each(a.s_min, b.s_min)));
         const std::uint32_t sure =
             candidates & bits_of(((least > fine) | (most < -fine)) &
                                  (lo >= each(a.ray.sure_min, b.ray.sure_min)) &
                                  (hi <= each(a.ray.sure_max, b.ray.sure_max)));
-        const hn::CappedTag<float, kBlockWidth> half;
         a.found.candidates = candidates & kAllLanes;
         b.found.candidates = candidates >> kBlockWidth & kAllLanes;
         a.found.sure = sure & kAllLanes;
         b.found.sure = sure >> kBlockWidth & kAllLanes;
-        hn::Store(hn::LowerHalf(half, lo.part[0]), half, a.found.lo);
-        hn::Store(hn::LowerHalf(half, hi.part[0]), half, a.found.hi);
+        store_lanes(lower_half(lo), a.found.lo);
+        store_lanes(lower_half(hi), a.found.hi);
         store_lanes(upper_half(lo), b.found.lo);
         store_lanes(upper_half(hi), b.found.hi);
     }
