@@ -1,5 +1,6 @@
 // Coherent rays in columns form the packets of the same rays in an array: the same work.
-// That they hit the same is compared with all other coherent rays (coherent_rays.h).
+// That they hit the same is compared with all other coherent rays (coherent_rays.h). Where packets
+// in lanes do not pay, shadow rays go by the stream.
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,47 @@ TEST(CoherentColumns, TakeTheWorkOfTheSameRaysInAnArray) {
             expect_same_work(*tree, shadow_rays(middle + Vec3{-1.2, -1.1, -1.3}, 0.3, eye, 16),
                              "shadow on " + target);
         }
+    }
+}
+
+/// Long thin triangles in all directions.
+PrimitiveTable splinters(int count) {
+    RandomEngine random(22);
+    TableBuilder builder;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = uniform_point(random, 1);
+        builder.add_triangle(a, a + uniform_point(random, 0.3), a + uniform_point(random, 0.003));
+    }
+    return builder.finish();
+}
+
+/// The failures that a tree remembers after a batch of any hit.
+std::uint32_t failures_of(const WideBvhAggregate& tree, const Rays& rays) {
+    PacketFailures failures{0};
+    WideBvhScene scene(tree.primitives(), tree.layout());
+    scene.failures = &failures;
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    wide_bvh_kernels(8).plain.occluded_coherent(scene, rays, {occluded.get(), rays.size()},
+                                                nullptr);
+    return failures.load();
+}
+
+TEST(CoherentColumns, ShadowRaysThatGoOnAloneLeaveThePackets) {
+    RandomEngine random(23);
+    const PrimitiveTable table = splinters(1200);
+    Rays apart;
+    for (int i = 0; i < 1100; ++i) {
+        const Vec3 from = uniform_point(random, 1);
+        apart.push_back({from, Vec3{2, 3, 4} - from, 0, 1});
+    }
+    compare("shadow rays apart", table, apart);
+    const Rays close = shadow_rays({-1.2, -1.1, -1.3}, 0.001, {1.5, 1.3, 1.4}, 32);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tree = make_aggregate("wide_bvh", table);
+        const auto& wide = dynamic_cast<const WideBvhAggregate&>(*tree);
+        EXPECT_GT(failures_of(wide, apart), 0u) << target;
+        EXPECT_EQ(failures_of(wide, close), 0u) << target;
     }
 }
 

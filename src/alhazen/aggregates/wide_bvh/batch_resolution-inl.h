@@ -1,4 +1,5 @@
-/// Exact resolution of the candidates of a batch, eight pairs of a ray and a triangle at a time.
+/// Exact resolution of the candidates of a batch, eight pairs of a ray and a triangle at a time, or
+/// sixteen.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -48,6 +49,9 @@ class BatchResolution {
     }
 
   private:
+    /// Sixteen where a register holds eight doubles.
+    static constexpr std::size_t kPairs = kParts<double, 16> == 2 ? 16 : kLaneCount;
+
     struct Pair {
         Ray ray;
         Hit* best;
@@ -88,7 +92,7 @@ class BatchResolution {
     /// The lane of `count_` and its pair have been set.
     template <class Stats>
     HWY_INLINE void added(Stats stats) {
-        if (++count_ == kLaneCount) resolve(stats);
+        if (++count_ == kPairs) resolve(stats);
     }
 
     template <class Stats>
@@ -112,8 +116,8 @@ class BatchResolution {
 
     const WideBvhScene& scene_;
     std::size_t count_ = 0, fetching_count_ = 0, fetched_count_ = 0;
-    TrianglePairs pairs_{};
-    Pair pair_[kLaneCount], fetching_[kLaneCount], fetched_[kLaneCount];
+    TrianglePairs<kPairs> pairs_{};
+    Pair pair_[kPairs], fetching_[kLaneCount], fetched_[kLaneCount];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -121,11 +121,22 @@ inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
             {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)}};
 }
 
+/// Whether packets in lanes of `rays` rays were faster than the stream: what a ray does when it
+/// goes on alone takes longer there than some fourteen of its visits with the others. Where only
+/// every third ray does so once, there is little to gain.
+[[nodiscard]] HWY_INLINE bool pays(const LaneWork& work, std::size_t rays) {
+    return work.together >= 14 * work.alone || 3 * work.alone <= rays;
+}
+
+/// The rays of packets that are tried together.
+inline constexpr std::size_t kTriedRays = 256;
+
 /// Traces packets in lanes, and calls `otherwise(i, 1)` for rays that do not fit in, whose results
-/// are then those of `sink` (lane_hits-inl.h).
-template <class Leaves, class Sink, class Stats, class Otherwise>
+/// are then those of `sink` (lane_hits-inl.h). `kTries`: calls apart(first, count) for rays that go
+/// in no packets, as those before them did not pay.
+template <class Leaves, bool kTries, class Sink, class Stats, class Otherwise, class Apart>
 HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, const Sink& sink,
-                          Stats stats, Otherwise&& otherwise) {
+                          Stats stats, Otherwise&& otherwise, [[maybe_unused]] Apart&& apart) {
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     TreeBox box;
@@ -133,18 +144,39 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
         box = TreeBox(layout.tree.nodes[root.index()], layout.frame.slack.slab);
     }
     const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
-    for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {
-        const std::size_t count = std::min(kPacketLanes, rays.size() - i);
-        if (rays.size() - i - count >= kPacketLanes) rays.prefetch<kPacketLanes>(i + count);
-        typename Leaves::Results results;
-        const std::uint32_t wanted = sink.begin(i, count, results);
-        std::uint32_t alone =
-            trace_lanes<Leaves>(batch, rays.part(i, count), results, wanted, stats);
-        sink.end(i, count, results);
-        for (; alone != 0; alone &= alone - 1) {
-            otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
+    PacketTrials trials(kTries ? scene.failures : nullptr);
+    for (std::size_t i = 0; i < rays.size();) {
+        const std::size_t end = kTries ? std::min(i + kTriedRays, rays.size()) : rays.size();
+        if constexpr (kTries) {
+            if (trials.skips()) {
+                apart(i, end - i);
+                i = end;
+                continue;
+            }
         }
+        const std::size_t first = i;
+        LaneWork work;
+        for (; i < end; i += kPacketLanes) {
+            const std::size_t count = std::min(kPacketLanes, rays.size() - i);
+            if (rays.size() - i - count >= kPacketLanes) rays.prefetch<kPacketLanes>(i + count);
+            typename Leaves::Results results;
+            const std::uint32_t wanted = sink.begin(i, count, results);
+            std::uint32_t alone =
+                trace_lanes<Leaves>(batch, rays.part(i, count), results, wanted, work, stats);
+            sink.end(i, count, results);
+            for (; alone != 0; alone &= alone - 1) {
+                otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
+            }
+        }
+        if constexpr (kTries) trials.tried(!pays(work, end - first));
     }
+}
+
+/// Traces all of them in packets.
+template <class Leaves, class Sink, class Stats, class Otherwise>
+HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, const Sink& sink,
+                          Stats stats, Otherwise&& otherwise) {
+    run_lanes<Leaves, false>(scene, rays, sink, stats, otherwise, [](std::size_t, std::size_t) {});
 }
 
 /// Whether a tree has packets in lanes, for any hit or for closest hits.
@@ -162,17 +194,20 @@ HWY_INLINE bool has_lane_packets(const WideBvhScene& scene) {
 /// stay in the cache.
 inline constexpr std::size_t kClearedTogether = 512;
 
-/// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
+/// Traces packets, and calls `otherwise(first, count)` for rays in no packet, apart(first, count)
+/// for those of any hit that are better off in the stream. Rays and results as
 /// in WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
-template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise>
+template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise,
+          class Apart>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<Result> results, const Sink& sink, Stats stats,
-                             Otherwise&& otherwise) {
+                             Otherwise&& otherwise, Apart&& apart) {
     const WideBvhLayout& layout = *scene.layout;
     constexpr bool kAnyHit = !InLanes::kOrdered;
     if constexpr (kAnyHit || kParts<float, 16> <= kMostLaneRegisters) {
         if (has_lane_packets<kAnyHit>(scene)) {
-            return run_lanes<InLanes>(scene, GivenRays(rays), sink, stats, otherwise);
+            return run_lanes < InLanes, kAnyHit && !Stats::kCounts > (scene, GivenRays(rays), sink,
+                                                                      stats, otherwise, apart);
         }
     }
     if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,

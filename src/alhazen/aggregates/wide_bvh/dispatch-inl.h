@@ -310,6 +310,16 @@ class BatchSource {
     BatchResolution resolution_;
 };
 
+/// Whether a batch visits most nodes and leaves several times, so that all but the first visits
+/// find them in the caches. A ray visits some ten.
+template <std::size_t W>
+HWY_INLINE bool stays_in_caches(const WideBvhLayout& layout, std::size_t rays) {
+    const std::size_t leaves = layout.triangles.size() + layout.indices.size() +
+                               layout.spheres.size() + layout.frustums.size() +
+                               layout.others.size();
+    return nodes_of<W>(layout.tree).size() + leaves <= 4 * rays;
+}
+
 template <class Query, std::size_t W, class Result, class Stats>
 HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
                             std::span<Result> results, Stats stats) {
@@ -324,7 +334,8 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
     BatchSource<Query, W, Result, Stats> source(scene, prefetch_table, rays, results, stats);
-    traverse_sorted<Query>(nodes, root, prefetch_table, source, stats);
+    const bool fetches = !stays_in_caches<W>(layout, rays.size());
+    traverse_sorted<Query>(nodes, root, prefetch_table, fetches, source, stats);
     source.finish_all(stats);
 }
 

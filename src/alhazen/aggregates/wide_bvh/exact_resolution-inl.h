@@ -182,7 +182,8 @@ struct PairVerdicts {
     }
 };
 
-/// Eight arbitrary rays, each with its own triangle; [..][lane].
+/// N arbitrary rays, each with its own triangle; [..][lane].
+template <std::size_t N = kLaneCount>
 class TrianglePairs {
   public:
     /// A triangle of any vertices.
@@ -218,12 +219,14 @@ class TrianglePairs {
     template <class Scalar, class Accept>
     HWY_INLINE bool resolve(std::uint32_t used, double inverse_scale, Scalar&& scalar,
                             Accept&& accept) {
-        PairVerdicts<kLaneCount> verdicts;
+        PairVerdicts<N> verdicts;
         const std::uint32_t set_up = test(inverse_scale, verdicts);
         return verdicts.take(used, set_up, scalar, accept);
     }
 
   private:
+    using Reals = Lanes<double, N>;
+
     HWY_INLINE void set_ray(std::size_t lane, const Ray& ray, const std::uint32_t (&axis)[3]) {
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -235,40 +238,40 @@ class TrianglePairs {
     }
     /// Returns the lanes whose third axis is the dominant one.
     HWY_NOINLINE HWY_FLATTEN std::uint32_t test(double inverse_scale,
-                                                PairVerdicts<kLaneCount>& verdicts) const {
-        PairLanes<kLaneCount> pairs;
+                                                PairVerdicts<N>& verdicts) const {
+        PairLanes<N> pairs;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Doubles center = load_lanes(center_[k]);
+            const Reals center = load_lanes<N>(center_[k]);
             for (std::size_t i = 0; i < 3; ++i) {
                 // As LocalFrame::world.
                 pairs.vertex[i][k] =
-                    Doubles(inverse_scale) * as_doubles(load_lanes(local_[i][k])) + center;
+                    Reals(inverse_scale) * as_doubles(load_lanes<N>(local_[i][k])) + center;
             }
-            pairs.origin[k] = load_lanes(origin_[k]);
-            pairs.direction[k] = load_lanes(direction_[k]);
+            pairs.origin[k] = load_lanes<N>(origin_[k]);
+            pairs.direction[k] = load_lanes<N>(direction_[k]);
         }
-        if (in_block_ != kAllLanes) {
-            const auto in_block = lanes_of_bits<double>(in_block_);
+        if (in_block_ != (1u << N) - 1) {
+            const auto in_block = lanes_of_bits<double, N>(in_block_);
             for (std::size_t k = 0; k < 3; ++k) {
                 for (std::size_t i = 0; i < 3; ++i) {
                     pairs.vertex[i][k] =
-                        select_lanes(in_block, pairs.vertex[i][k], load_lanes(vertex_[i][k]));
+                        select_lanes(in_block, pairs.vertex[i][k], load_lanes<N>(vertex_[i][k]));
                 }
             }
         }
-        pairs.t_min = load_lanes(t_min_);
-        pairs.t_max = load_lanes(t_max_);
+        pairs.t_min = load_lanes<N>(t_min_);
+        pairs.t_max = load_lanes<N>(t_max_);
         verdicts.test(pairs);
-        const Doubles most = abs(pairs.direction[2]);
+        const Reals most = abs(pairs.direction[2]);
         return bits_of((most > abs(pairs.direction[0])) & (most > abs(pairs.direction[1])));
     }
 
-    std::uint32_t in_block_ = 0;                   ///< bits of the lanes of `local_`
-    alignas(64) float local_[3][3][kLaneCount];    ///< [corner][axis], in the local frame
-    alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
-    alignas(64) double center_[3][kLaneCount];     ///< of the local frame
-    alignas(64) double origin_[3][kLaneCount], direction_[3][kLaneCount];
-    alignas(64) double t_min_[kLaneCount], t_max_[kLaneCount];
+    std::uint32_t in_block_ = 0;          ///< bits of the lanes of `local_`
+    alignas(64) float local_[3][3][N];    ///< [corner][axis], in the local frame
+    alignas(64) double vertex_[3][3][N];  ///< [corner][axis], axes as in RayShear
+    alignas(64) double center_[3][N];     ///< of the local frame
+    alignas(64) double origin_[3][N], direction_[3][N];
+    alignas(64) double t_min_[N], t_max_[N];
 };
 
 }  // namespace HWY_NAMESPACE

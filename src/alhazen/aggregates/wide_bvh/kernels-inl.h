@@ -215,7 +215,7 @@ struct Kernels {
             }
         };
         run_coherent<ClosestPacket, ClosestLanes>(scene, rays, best, HitArraySink{best, unset},
-                                                  policy(stats), otherwise);
+                                                  policy(stats), otherwise, otherwise);
     }
     static void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                   std::span<bool> result, TraversalStats* stats) {
@@ -228,8 +228,11 @@ struct Kernels {
                 if (!result[i]) result[i] = occluded(scene, rays[i], stats);
             }
         };
+        const auto apart = [&](std::size_t first, std::size_t count) {
+            occluded_batch(scene, rays.subspan(first, count), result.subspan(first, count), stats);
+        };
         run_coherent<OccludedPacket, OccludedLanes>(scene, rays, result, OcclusionSink{result},
-                                                    policy(stats), otherwise);
+                                                    policy(stats), otherwise, apart);
     }
     static bool closest_columns([[maybe_unused]] const WideBvhScene& scene,
                                 [[maybe_unused]] const RayColumns& rays,
@@ -255,8 +258,12 @@ struct Kernels {
         const auto otherwise = [&](std::size_t i, std::size_t) {
             result[i] = occluded(scene, rays.ray(i), stats);
         };
-        run_lanes<OccludedLanes>(scene, GivenRays(rays), OcclusionSink{result}, policy(stats),
-                                 otherwise);
+        const auto apart = [&](std::size_t first, std::size_t count) {
+            occluded_column_stream(scene, rays.part(first, count), result.subspan(first, count),
+                                   stats);
+        };
+        run_lanes<OccludedLanes, !Stats::kCounts>(scene, GivenRays(rays), OcclusionSink{result},
+                                                  policy(stats), otherwise, apart);
         return true;
     }
 

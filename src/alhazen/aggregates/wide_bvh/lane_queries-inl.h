@@ -520,7 +520,7 @@ struct LaneBatch {
 template <class Leaves, class Stats>
 HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& rays,
                                        typename Leaves::Results& results, std::uint32_t wanted,
-                                       Stats stats) {
+                                       LaneWork& work, Stats stats) {
     const WideBvh& tree = batch.scene.layout->tree;
     LanePacket packet;
     // Shadow rays end in one point, if in any.
@@ -535,7 +535,7 @@ HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& 
         const std::uint32_t set = packet.choose_set(rest);
         rest &= ~set;
         traverse_lanes(tree.nodes.data(), tree.root, batch.prefetch_table, packet, set, least,
-                       leaves, stats);
+                       leaves, work, stats);
         // While the axes are those of the set.
         if (leaves.any_alone()) leaves.trace_alone(stats);
         leaves.finish(stats);

@@ -141,6 +141,28 @@ struct LeafQuery {
         }
         return true;
     }
+    /// Whether `filter_blocks` is faster than `filter_block` for each.
+    static constexpr bool kPairs = Test::kExact && kPairsTriangles;
+    /// As `filter_block` for two queries and a leaf each. False, without effect, if not both leaves
+    /// hold blocks of triangles.
+    template <class Stats>
+    static HWY_INLINE bool filter_blocks(LeafQuery& a, NodeRef of_a, LeafQuery& b, NodeRef of_b,
+                                         Stats stats) {
+        const auto holds_triangles = [](NodeRef ref) {
+            return static_cast<LeafType>(ref.kind()) == LeafType::Triangles;
+        };
+        if (HWY_UNLIKELY(!holds_triangles(of_a) || !holds_triangles(of_b) || a.blocks == nullptr)) {
+            return false;
+        }
+        const TriangleBlock &x = a.blocks[of_a.offset()], &y = a.blocks[of_b.offset()];
+        stats.primitives(used_lanes(x));
+        stats.primitives(used_lanes(y));
+        filter_two({x, a.filter, a.slabs.s_min, a.s_max, a.later_.triangles},
+                   {y, b.filter, b.slabs.s_min, b.s_max, b.later_.triangles});
+        a.later_.set(x);
+        b.later_.set(y);
+        return true;
+    }
     template <class Stats>
     HWY_INLINE bool settle(Stats stats) {
         return later_.settle([&](const auto& block, const FilteredShapes& found, std::uint32_t rest)
@@ -381,7 +403,7 @@ struct LeafQuery {
     HWY_INLINE bool visit_indices(const IndexBlock& block, Stats stats) {
         const std::uint32_t used = used_lanes(block);
         stats.primitives(used);
-        TrianglePairs pairs{};
+        TrianglePairs<> pairs{};
         for (std::size_t lane = 0; lane < used; ++lane) {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});

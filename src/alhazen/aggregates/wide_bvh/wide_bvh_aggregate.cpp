@@ -277,9 +277,10 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
 
 void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> occluded,
                                         RayQuery query, Coherence coherence) const {
+    WideBvhScene seen = batch_scene(query.mask);
+    if (query.stats == nullptr) seen.failures = &occluded_failures_;
     if (takes_whole(coherence) &&
-        kernels_.for_stats(query.stats)
-            .occluded_columns(batch_scene(query.mask), rays, occluded, query.stats)) {
+        kernels_.for_stats(query.stats).occluded_columns(seen, rays, occluded, query.stats)) {
         return;
     }
     if (streams_alone(coherence, rays.size())) {

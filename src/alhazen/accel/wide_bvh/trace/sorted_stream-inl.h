@@ -80,6 +80,21 @@ class StepLists {
             then(*taken.slots[i]);
         }
     }
+    /// As `take`, two rays at a time: two(slot, slot), one(slot) for the last of an odd number.
+    /// Calls then(slot) for each when the next two are done.
+    template <class Two, class One, class Then>
+    HWY_INLINE void take_pairs(NextStep step, Two&& two, One&& one, Then&& then) {
+        const Taken taken = take_list(step);
+        std::size_t i = 0;
+        for (; i + 1 < taken.count; i += 2) {
+            two(*taken.slots[i], *taken.slots[i + 1]);
+            if (i == 0) continue;
+            then(*taken.slots[i - 2]);
+            then(*taken.slots[i - 1]);
+        }
+        if (i < taken.count) one(*taken.slots[i]);
+        for (i -= std::min<std::size_t>(i, 2); i < taken.count; ++i) then(*taken.slots[i]);
+    }
 
   private:
     static constexpr std::size_t kSteps = 4;
@@ -108,10 +123,12 @@ template <class Query, std::size_t W, class Source, class Stats>
 class SortedStream {
   public:
     HWY_INLINE SortedStream(const WideNodeOf<W>* nodes, NodeRef root,
-                            const PrefetchTable& prefetch_table, Source& source, Stats stats)
+                            const PrefetchTable& prefetch_table, bool fetches, Source& source,
+                            Stats stats)
         : nodes_(nodes),
           root_(root),
           prefetch_table_(prefetch_table),
+          fetches_(fetches),
           source_(source),
           stats_(stats) {}
 
@@ -127,9 +144,7 @@ class SortedStream {
             const bool idle = lists_.count(NextStep::Node) == 0;
             const std::size_t leaves = lists_.count(NextStep::Leaf);
             if (leaves >= kEnough || (idle && leaves > 0)) {
-                lists_.template take<kLeavesBehind>(
-                    NextStep::Leaf, [&](Slot& slot) HWY_ATTR { visit_leaf(slot); },
-                    [&](Slot& slot) HWY_ATTR { queue(slot, slot.query().waits()); });
+                visit_leaves();
                 lists_.take(NextStep::Settle, [&](Slot& slot) HWY_ATTR { settle(slot); });
             }
             const bool starved =
@@ -186,7 +201,7 @@ class SortedStream {
     /// `waits`: a leaf is to be settled before.
     HWY_INLINE void queue(Slot& slot, bool waits = false) {
         const std::uint32_t next = slot.stack.child[slot.height - 1];
-        prefetch_table_.prefetch(next);
+        if (fetches_) prefetch_table_.prefetch(next);
         lists_.add(kNextSteps[waits][next >> 28], slot);
     }
     HWY_INLINE void visit_node(Slot& slot) {
@@ -200,11 +215,35 @@ class SortedStream {
         slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                                 query.slabs.near.octant);
     }
-    HWY_INLINE void visit_leaf(Slot& slot) {
+    HWY_INLINE void visit_leaves() {
+        const auto one = [&](Slot& slot) HWY_ATTR { visit_leaf(slot, take_leaf(slot)); };
+        const auto then = [&](Slot& slot) HWY_ATTR { queue(slot, slot.query().waits()); };
+        if constexpr (Query::kPairs) {
+            lists_.take_pairs(
+                NextStep::Leaf,
+                [&](Slot& a, Slot& b) HWY_ATTR {
+                    const NodeRef of_a = take_leaf(a), of_b = take_leaf(b);
+                    if (HWY_LIKELY(
+                            Query::filter_blocks(a.query(), of_a, b.query(), of_b, stats_))) {
+                        return;
+                    }
+                    visit_leaf(a, of_a);
+                    visit_leaf(b, of_b);
+                },
+                one, then);
+        } else {
+            lists_.template take<kLeavesBehind>(NextStep::Leaf, one, then);
+        }
+    }
+    /// Removes the first block of a leaf from the stack.
+    HWY_INLINE NodeRef take_leaf(Slot& slot) {
         const std::size_t top = slot.height - 1;
         const NodeRef leaf = NodeRef::from_bits(slot.stack.child[top]);
         slot.stack.child[top] = leaf.after_first_block().bits();
         slot.height = top + (leaf.count() > 1);
+        return leaf;
+    }
+    HWY_INLINE void visit_leaf(Slot& slot, NodeRef leaf) {
         Query& query = slot.query();
         const float s_max = query.s_max;
         if (query.filter_block(leaf, stats_)) return slot.stop();
@@ -229,17 +268,21 @@ class SortedStream {
     const WideNodeOf<W>* nodes_;
     NodeRef root_;
     const PrefetchTable& prefetch_table_;
+    const bool fetches_;
     Source& source_;
     [[no_unique_address]] Stats stats_;
     StepLists<Slot, kBatchSlots> lists_;
     Slot slots_[kBatchSlots];
 };
 
-/// Traces every ray of `source` through the tree.
+/// Traces every ray of `source` through the tree. `fetches`: whether nodes and leaves are
+/// prefetched.
 template <class Query, std::size_t W, class Source, class Stats>
 HWY_INLINE void traverse_sorted(const WideNodeOf<W>* nodes, NodeRef root,
-                                const PrefetchTable& prefetch_table, Source& source, Stats stats) {
-    SortedStream<Query, W, Source, Stats> stream(nodes, root, prefetch_table, source, stats);
+                                const PrefetchTable& prefetch_table, bool fetches, Source& source,
+                                Stats stats) {
+    SortedStream<Query, W, Source, Stats> stream(nodes, root, prefetch_table, fetches, source,
+                                                 stats);
     stream.run();
 }
 

@@ -26,6 +26,12 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// How far the rays of packets go together.
+struct LaneWork {
+    std::uint32_t together = 0;  ///< visits of nodes and leaves, each counted for all of its rays
+    std::uint32_t alone = 0;     ///< times that a ray goes on alone
+};
+
 /// Subtrees yet to visit, and the rays that meet them: apart, for an entry that was just stored by
 /// parts would be waited for as a whole.
 struct LaneStack {
@@ -86,16 +92,21 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, 
 /// Visits the leaves that rays of `lanes` meet, nearest first if `Leaf::kOrdered`, else from slot 0
 /// on. `leaf.visit(ref, lanes, stats)` may limit rays, `leaf.go_alone(ref, lanes, stats)` takes
 /// fewer than `least_lanes` of them through a subtree one by one, and `leaf.wanting(entry)` says
-/// which go as far as that.
+/// which go as far as that. `work` is counted for any hit only.
 template <class Leaf, class Stats>
 HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
                                const PrefetchTable& prefetch_table, const LanePacket& packet,
-                               std::uint32_t lanes, int least_lanes, Leaf& leaf, Stats stats) {
+                               std::uint32_t lanes, int least_lanes, Leaf& leaf, LaneWork& work,
+                               Stats stats) {
     LaneStack stack;
     std::size_t height = 0;
     NodeRef ref = root;
     while (true) {
-        if (std::popcount(lanes) < least_lanes) {
+        const int count = std::popcount(lanes);
+        if constexpr (!Leaf::kOrdered) {
+            (count < least_lanes ? work.alone : work.together) += static_cast<std::uint32_t>(count);
+        }
+        if (count < least_lanes) {
             leaf.go_alone(ref, lanes, stats);
         } else if (ref.is_leaf()) {
             leaf.visit(ref, lanes, stats);

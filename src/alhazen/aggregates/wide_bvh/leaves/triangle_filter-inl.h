@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
 #include "alhazen/simd/lanes-inl.h"
@@ -128,6 +129,68 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     store_lanes(lo, out.lo);
     store_lanes(hi, out.hi);
     return true;
+}
+
+/// A ray at a block of triangles, and what is found there.
+struct RayAtTriangles {
+    const TriangleBlock& block;
+    const TriangleFilterRay& ray;
+    float s_min, s_max;
+    FilteredTriangles& found;
+};
+
+/// Whether two rays, each with a block of its own, fill one register.
+inline constexpr bool kPairsTriangles = kParts<float, 2 * kBlockWidth> == 1;
+
+/// As filter_triangles<true> for both, by the finer bound alone.
+HWY_INLINE void filter_two([[maybe_unused]] const RayAtTriangles& a,
+                           [[maybe_unused]] const RayAtTriangles& b) {
+    if constexpr (kPairsTriangles) {
+        using F = Lanes<float, 2 * kBlockWidth>;
+        const auto of_b = lanes_of_bits<float, 2 * kBlockWidth>(kAllLanes << kBlockWidth);
+        const auto each = [&](float x, float y) HWY_ATTR { return select_lanes(of_b, F(y), F(x)); };
+        const auto row = [&](std::size_t i, std::size_t x, std::size_t y) HWY_ATTR {
+            return joined(load_lanes(a.block.vertex[i][x]), load_lanes(b.block.vertex[i][y]));
+        };
+        const F ox = each(a.ray.origin[0], b.ray.origin[0]);
+        const F oy = each(a.ray.origin[1], b.ray.origin[1]);
+        const F oz = each(a.ray.origin[2], b.ray.origin[2]);
+        const F sx = each(a.ray.sx, b.ray.sx), sy = each(a.ray.sy, b.ray.sy);
+        struct {
+            F x, y, z;
+        } v[3];
+        F far(0.0f);
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            v[i].z = row(i, a.ray.kz, b.ray.kz) - oz;
+            v[i].x = neg_mul_add(sx, v[i].z, row(i, a.ray.kx, b.ray.kx) - ox);
+            v[i].y = neg_mul_add(sy, v[i].z, row(i, a.ray.ky, b.ray.ky) - oy);
+            far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
+        }
+        const auto edge = [](const auto& p, const auto& q)
+                              HWY_ATTR { return mul_sub(p.x, q.y, p.y * q.x); };
+        const F eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
+        F lo, hi;
+        const F fine = bound_crossing(v, far, eu, ev, ew, each(a.ray.sz, b.ray.sz),
+                                      each(a.ray.near_error, b.ray.near_error), lo, hi);
+        const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
+        // Written so that a NaN is a candidate and not sure.
+        const std::uint32_t candidates =
+            ~bits_of(((least < -fine) & (most > fine)) | (lo > each(a.s_max, b.s_max)) |
+                     (hi < each(a.s_min, b.s_min)));
+        const std::uint32_t sure =
+            candidates & bits_of(((least > fine) | (most < -fine)) &
+                                 (lo >= each(a.ray.sure_min, b.ray.sure_min)) &
+                                 (hi <= each(a.ray.sure_max, b.ray.sure_max)));
+        a.found.candidates = candidates & kAllLanes;
+        b.found.candidates = candidates >> kBlockWidth & kAllLanes;
+        a.found.sure = sure & kAllLanes;
+        b.found.sure = sure >> kBlockWidth & kAllLanes;
+        store_lanes(lower_half(lo), a.found.lo);
+        store_lanes(lower_half(hi), a.found.hi);
+        store_lanes(upper_half(lo), b.found.lo);
+        store_lanes(upper_half(hi), b.found.hi);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
