@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "alhazen/sampling/random.h"
 
 namespace alhazen::bench {
 
@@ -12,6 +15,29 @@ double processor_seconds() {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+namespace {
+
+/// The numbers of the tracers in the order of a round; see `measure`.
+std::vector<std::size_t> draw_order(const std::vector<Contender>& tracers, RandomStream& random) {
+    std::vector<std::size_t> left(tracers.size()), order, others;
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    while (!left.empty()) {
+        others.clear();
+        for (const std::size_t i : left) {
+            if (order.empty() || tracers[i].group != tracers[order.back()].group) {
+                others.push_back(i);
+            }
+        }
+        const std::vector<std::size_t>& from = others.empty() ? left : others;
+        const std::size_t next = from[random.below(from.size())];
+        order.push_back(next);
+        std::erase(left, next);
+    }
+    return order;
+}
+
+}  // namespace
 
 Spread spread_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -27,8 +53,9 @@ Spread spread_of(std::vector<double> values) {
 std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays, int rounds) {
     std::vector<Measured> results;
     for (const Contender& t : tracers) results.push_back({t.group, t.name, {}, 0});
+    RandomStream random(1);
     for (int round = 0; round <= rounds; ++round) {
-        for (std::size_t i = 0; i < tracers.size(); ++i) {
+        for (const std::size_t i : draw_order(tracers, random)) {
             if (tracers[i].prepare) tracers[i].prepare();
             const double begin = processor_seconds();
             tracers[i].trace();

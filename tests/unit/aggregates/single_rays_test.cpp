@@ -5,6 +5,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
@@ -92,6 +93,53 @@ TEST(SingleRays, RaysThatFollowNoneThroughALargeTreeHitWhatBatchesHit) {
             ASSERT_TRUE(same(hit, expected[i])) << target << ": " << show(rays[i]);
             ASSERT_EQ(tested->occluded(rays[i], nullptr), hit.found())
                 << target << ": " << show(rays[i]);
+        }
+    }
+}
+
+/// Triangles, and three through all of them, whose corners are at `half` from the axes.
+PrimitiveTable triangles_in_a_room(double half) {
+    PrimitiveTable table = random_triangles(600, 1, 0.3, 56);
+    auto walls = std::make_shared<TriangleMesh>();
+    for (int i = 0; i < 8; ++i) {
+        walls->positions.push_back({(i & 1) != 0 ? half : -half, (i & 2) != 0 ? half : -half,
+                                    (i & 4) != 0 ? half : -half});
+    }
+    // Each has the box of all, so that the builder cannot divide it.
+    walls->triangles = {{0, 3, 5}, {7, 1, 2}, {0, 3, 6}};
+    table.meshes.push_back({walls, table.meshes.front().material, 0, false});
+    table.finish();
+    return table;
+}
+
+TEST(SingleRays, RaysThatBeginWithTheLargestLeafHitWhatTheListDoes) {
+    const PrimitiveTable table = triangles_in_a_room(2);
+    const auto list = make_aggregate("list", table);
+    std::vector<Ray> rays;
+    RandomEngine random(57);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 origin = uniform_point(random, i % 3 == 0 ? 4 : 2);
+        rays.push_back({origin, uniform_point(random, 2) - origin, 0, i % 4 == 0 ? 1 : HUGE_VAL});
+    }
+    const Sequence expected = ask_one_by_one(*list, rays, true);
+    for (const std::uint32_t width : {4u, 8u, 16u}) {
+        for (const std::string& target : simd_targets()) {
+            const SimdTargetOverride use(target);
+            BuildOptions options;
+            options.width = width;
+            const auto tested = make_aggregate("wide_bvh", table, options);
+            const auto& tree = dynamic_cast<const WideBvhAggregate&>(*tested);
+            WideBvhScene scene(tree.primitives(), tree.layout());
+            scene.find_largest_leaf();
+            ASSERT_NE(scene.largest_leaf_slot, 0u) << width << " " << target;
+            for (const bool follow : {true, false}) {
+                const Sequence answers = ask_one_by_one(*tested, rays, follow);
+                EXPECT_EQ(answers.occluded, expected.occluded) << width << " " << target;
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    ASSERT_TRUE(same(answers.hits[i], expected.hits[i]))
+                        << width << " " << target << ": " << show(rays[i]);
+                }
+            }
         }
     }
 }

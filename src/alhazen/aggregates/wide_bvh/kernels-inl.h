@@ -52,6 +52,37 @@ HWY_NOINLINE void traverse_far(const WideNodeOf<W>* nodes, NodeRef next, NodeSta
                                     query, NoStats{});
 }
 
+/// Whether a ray begins with WideBvhScene::largest_leaf, whose address does not depend on what the
+/// test of the root finds: its triangles are tested at the same time. Any-hit queries keep their
+/// order; of the others those do that begin in its box, or all if it is the best for any hit.
+template <std::size_t W, class Query>
+HWY_INLINE bool takes_largest_leaf(const WideBvhScene& scene, const SlabLanes& lanes,
+                                   std::uint32_t bits, const Lanes<float, W>& entries) {
+    if ((bits & scene.largest_leaf_slot) == 0) return false;
+    if (scene.largest_leaf_slot == 1) return true;
+    if constexpr (!Query::kOrdered) return false;
+    const auto begun = entries <= spread<0, W>(lanes.range);
+    return (bits_of(begun) & scene.largest_leaf_slot) != 0;
+}
+
+/// Pushes the children of the root of `bits`, which may be none, without a jump on their number;
+/// the height of the stack.
+template <bool kOrdered, std::size_t W>
+HWY_INLINE std::size_t push_others(NodeStack<W>& stack, const WideNodeOf<W>& root,
+                                   const Lanes<float, W>& entries, std::uint32_t bits,
+                                   std::uint32_t octant) {
+    std::size_t height = 0;
+    if constexpr (kOrdered) {
+        // Entries are not negative: the others are left before they are entered.
+        const auto exits =
+            select_lanes(lanes_of_bits<float, W>(bits), entries, Lanes<float, W>(-1.0f));
+        height = stack.template push<true>(0, root, entries, exits, octant);
+    } else {
+        stack.push_at_once(height, root, bits);
+    }
+    return height;
+}
+
 /// Visits the children of the root that a query meets, `bits`, and what follows. `Result`: Hit or
 /// bool, as the query finds.
 template <std::size_t W, class Query, class Result>
@@ -72,12 +103,20 @@ HWY_INLINE void trace_children(const WideBvhScene& scene, const Ray& ray, const 
     }
     NodeStack<W> stack;
     std::size_t height = 0;
-    const NodeRef next = next_child<Query::kOrdered, false>(nodes, node, stack, height, entries,
-                                                            lanes_of_bits<float, W>(bits), bits,
-                                                            lanes.near.octant, follows, query);
+    NodeRef next;
+    const bool begins_in_leaf = takes_largest_leaf<W, Query>(scene, lanes, bits, entries);
+    if (begins_in_leaf) {
+        const std::uint32_t others = bits & ~scene.largest_leaf_slot;
+        height = push_others<Query::kOrdered>(stack, node, entries, others, lanes.near.octant);
+        next = NodeRef::from_bits(scene.largest_leaf);
+    } else {
+        next = next_child<Query::kOrdered, false>(nodes, node, stack, height, entries,
+                                                  lanes_of_bits<float, W>(bits), bits,
+                                                  lanes.near.octant, follows, query);
+    }
     if constexpr (Query::kOrdered) {
         if (follows == Follows::Nothing && tree_nodes.size() * sizeof(node) > kMostInCaches &&
-            !next.is_leaf()) {
+            (begins_in_leaf || !next.is_leaf())) {
             traverse_far(nodes, next, stack, height, query);
             query.finish(NoStats{});
             return;

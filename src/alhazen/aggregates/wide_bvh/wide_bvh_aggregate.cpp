@@ -92,6 +92,7 @@ void WideBvhAggregate::finish_build() {
     only_tree_ = outside_.empty() && !layout_.tree.empty;
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
                            kernels_.plain.closest_coherent != nullptr);
+    all_.find_largest_leaf();
     // Incoherent rays read the meshes at random.
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));

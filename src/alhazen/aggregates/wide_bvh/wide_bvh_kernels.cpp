@@ -4,6 +4,28 @@
 
 namespace alhazen {
 
+void WideBvhScene::find_largest_leaf() {
+    constexpr float kShare = 0.9f;
+    const WideBvh& tree = layout->tree;
+    if (tree.empty || tree.root.is_leaf() || layout->is_indexed()) return;
+    with_nodes(tree, [&](const auto& nodes) {
+        const auto& root = nodes[tree.root.index()];
+        FloatBox all;
+        const std::uint32_t count = root.child_count();
+        for (std::uint32_t i = 0; i < count; ++i) all.include(root.box(i));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const NodeRef child = root.child[i];
+            if (!child.is_leaf() || static_cast<LeafType>(child.kind()) != LeafType::Triangles ||
+                !(root.box(i).weight() >= kShare * all.weight())) {
+                continue;
+            }
+            largest_leaf = child.bits();
+            largest_leaf_slot = 1u << i;
+            return;
+        }
+    });
+}
+
 void WideBvhScene::expect_indices(PrimitiveId id) const {
     const std::uint32_t triangle = static_cast<std::uint32_t>(id) - table->first(kTriangleKind);
     hwy::Prefetch(table->triangle_corners(triangle));

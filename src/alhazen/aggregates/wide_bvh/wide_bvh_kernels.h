@@ -29,11 +29,18 @@ class WideBvhScene {
     PacketFailures* failures = nullptr;  ///< null: each batch starts without failures
     RecentOccluders* recent = nullptr;   ///< of a batch whose rays are traced one by one
     bool others_alone = false;           ///< see Schedules
+    /// A leaf of triangles among the children of the root whose box is about as large as the
+    /// root's, as that of the walls of a room: the bits of its reference, and that of its slot, or
+    /// 0.
+    std::uint32_t largest_leaf = 0, largest_leaf_slot = 0;
     bool waits = false;  ///< rays that leave a packet in lanes are traced several in turn
 
     [[nodiscard]] bool sees(PrimitiveId id) const {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
     }
+
+    /// Sets `largest_leaf`. Precondition: the layout is complete.
+    void find_largest_leaf();
 
     /// Has the indices of a candidate's vertices fetched if its block holds them rounded.
     void expect(BlockId triangle) const {
