@@ -183,11 +183,15 @@ struct HttpServer::State {
         return plain(404, "there is no such file\n");
     }
 
+    /// Exact addresses: 'self' would allow a WebSocket to any path. Policies have no addresses of
+    /// IPv6 (Content Security Policy Level 3, host-part).
+    static std::string connections(const std::string& host) {
+        return host.front() == '[' ? "'self'" : "http://" + host + " ws://" + host + "/frames";
+    }
+
     /// `host`: name by which the page calls this server; empty: the request is refused.
     static std::string text_of(const HttpResponse& response, bool keep, const std::string& host) {
-        // Exact addresses: 'self' would allow a WebSocket to any path.
-        const std::string ways =
-            host.empty() ? "'none'" : "http://" + host + " ws://" + host + "/frames";
+        const std::string ways = host.empty() ? "'none'" : connections(host);
         const beast::string_view reason =
             http::obsolete_reason(http::int_to_status(static_cast<unsigned>(response.status)));
         std::string text = fmt::format("HTTP/1.1 {} {}\r\n", response.status, view_of(reason));
@@ -242,7 +246,8 @@ struct HttpServer::State {
             }
             stream.expires_never();
             const HttpRequest& request = parser.get();
-            keep = request.keep_alive();
+            // The last place is given back at once, to the socket of the same page for example.
+            keep = request.keep_alive() && clients.load() < kMostClients;
             std::optional<HttpResponse> refused = refusal(request);
             if (!refused && is_upgrade(request)) {
                 // A client that follows the protocol sends nothing before the response.
@@ -272,7 +277,11 @@ struct HttpServer::State {
         } const counted{clients};
         try {
             if (clients.load() > kMostClients) {
-                co_await send(stream, plain(503, "too many clients\n"), false);
+                co_await send(stream,
+                              plain(503,
+                                    "This server has 8 clients at most, and each page is "
+                                    "one: close another, then load this one again.\n"),
+                              false);
             } else {
                 co_await serve(std::move(stream));
             }
