@@ -1,5 +1,6 @@
 #include "added_lights.h"
 
+#include "alhazen/session/environment_option.h"
 #include "alhazen/session/framing/framing.h"
 #include "alhazen/session/render.h"
 
@@ -14,8 +15,9 @@ AddedLights complete(LoadedScene& loaded) {
     const bool lacks = lacks_light(description, scene);
     AddedLights added;
     added.background = scene.background;
-    added.follows_light =
-        !scene.environment && !glows(scene) && (!lacks || scene.background.is_black());
+    added.studio = is_dark(loaded);
+    added.follows_light = !added.studio && !scene.environment && !glows(scene) &&
+                          (!lacks || scene.background.is_black());
     (void)complete_view(description, scene, framing);
     added.any = scene.lights.size() > lights;
     if (!added.any || !lacks) return added;

@@ -15,6 +15,7 @@ namespace alhazen::viewer {
 struct AddedLights {
     bool any = false;               ///< a light was added
     bool follows_light = true;      ///< physically based renderers have it as well
+    bool studio = false;            ///< physically based renderers see a studio around the scene
     Rgb background;                 ///< of the scene before
     std::vector<Light> of_cameras;  ///< [camera] its headlight; empty if another light was added
 

@@ -40,6 +40,10 @@ using tcp = asio::ip::tcp;
 namespace {
 
 constexpr int kMostClients = 8;
+constexpr int kMostGuests = 4;  // further ones, which get the files of the page
+constexpr std::string_view kFull =
+    "This server has 8 clients at most, and each page is one: close another, then load this one "
+    "again.\n";
 constexpr auto kPatience = std::chrono::seconds(5);
 constexpr std::uint32_t kMostHeader = 8 * 1024;
 constexpr std::uint64_t kMostBody = 1024 * 1024;
@@ -229,7 +233,8 @@ struct HttpServer::State {
                    : 0;
     }
 
-    asio::awaitable<void> serve(beast::tcp_stream stream) {
+    /// `guest`: only the files of the page are served, once.
+    asio::awaitable<void> serve(beast::tcp_stream stream, bool guest) {
         beast::flat_buffer buffer(kMostHeader + kMostBody);
         for (bool keep = true; keep;) {
             http::request_parser<http::string_body> parser;
@@ -249,6 +254,10 @@ struct HttpServer::State {
             // The last place is given back at once, to the socket of the same page for example.
             keep = request.keep_alive() && clients.load() < kMostClients;
             std::optional<HttpResponse> refused = refusal(request);
+            if (!refused && guest &&
+                (request.method() == http::verb::post || is_upgrade(request))) {
+                refused = plain(503, std::string(kFull));
+            }
             if (!refused && is_upgrade(request)) {
                 // A client that follows the protocol sends nothing before the response.
                 if (buffer.size() > 0) break;
@@ -276,14 +285,11 @@ struct HttpServer::State {
             ~Counted() { --clients; }
         } const counted{clients};
         try {
-            if (clients.load() > kMostClients) {
-                co_await send(stream,
-                              plain(503,
-                                    "This server has 8 clients at most, and each page is "
-                                    "one: close another, then load this one again.\n"),
-                              false);
+            const int count = clients.load();
+            if (count > kMostClients + kMostGuests) {
+                co_await send(stream, plain(503, std::string(kFull)), false);
             } else {
-                co_await serve(std::move(stream));
+                co_await serve(std::move(stream), count > kMostClients);
             }
         } catch (const boost::system::system_error&) {
             // The client has disconnected or timed out.

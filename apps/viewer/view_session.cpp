@@ -184,6 +184,9 @@ std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneStore::Load
     Lighting lighting = wish.lighting;
     const SceneDescription& description = here.scene.description;
     const bool follows = follows_light(wish.options.renderer);
+    if (follows && here.added.studio && lighting.environment.empty()) {
+        lighting.environment = "studio";
+    }
     if (lighting.is_that_of_the_scene() && !here.added.is_left_out(follows, lighting) &&
         !here.added.is_another(wish.of)) {
         return std::nullopt;

@@ -149,7 +149,8 @@ class ViewCameras(ViewerPage):
         bare = "\n".join(line for line in SCENE.split("\n") if not line.startswith("point_light"))
         glowing = bare.replace('material "red" { ', 'material "red" { emission = (2, 1, 0.5); ')
         dark = glowing.replace("; background = (0.1, 0.15, 0.3)", "")
-        for name, text in (("bare", bare), ("glowing", glowing), ("dark", dark)):
+        black = bare.replace("0.1, 0.15, 0.3", "0, 0, 0")
+        for name, text in (("bare", bare), ("glowing", glowing), ("dark", dark), ("black", black)):
             scene = self.write(f"{name}.alhazen", text)
             self.serve(scene)
             for renderer in ("whitted", "path_tracing"):

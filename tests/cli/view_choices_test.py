@@ -183,6 +183,13 @@ class ViewChoices(ViewerPage):
                 page.wait(MESSAGE + ".includes('has 8 clients at most')", 30)
                 self.changes(lambda: page.value("viewer.image.focus()") or page.key("ArrowLeft"))
                 self.assertEqual(page.value(MESSAGE), "")
+            # A ninth page says so, too, and begins when there is a place.
+            ninth = self.browser.open(700, 600)
+            self.addCleanup(ninth.close)
+            ninth.call("Page.navigate", url=self.server.url)
+            ninth.wait(MESSAGE + ".includes('has 8 clients at most')")
+            others.pop().socket.shutdown(socket.SHUT_RDWR)
+            ninth.wait(f"{FINE} && {MESSAGE} === ''")
             # With a place free again the page gets it.
             page.value("viewer.explain(0.5, 0.5)")
             time.sleep(1)

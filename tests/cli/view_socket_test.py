@@ -266,6 +266,15 @@ class ViewSocket(ServerTest):
                 time.sleep(0.1)
         self.assertEqual(self.socket_of().status, 503)
         self.assertEqual(self.server.ask("/state", {})[0], 503)
+        # Four more get the files of the page, which says that the server is full.
+        for path in ("/", "/view.js", "/view.css"):
+            self.assertEqual(self.server.ask(path, b"", "GET", Origin=None)[0], 200)
+        time.sleep(0.3)
+        slow = self.server.connect_slowly(4)
+        time.sleep(0.3)
+        self.assertIn(b" 503 ", self.server.raw(b"").split(b"\r\n")[0])
+        for s in slow:
+            s.close()
         heads = [None] * 8
 
         def use(k):
