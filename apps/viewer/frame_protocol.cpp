@@ -17,6 +17,10 @@ ClientMessage client_message(std::string_view text) {
             message.kind = ClientMessage::Kind::Token;
             return message;
         }
+        if (given.value("stop", false)) {
+            message.kind = ClientMessage::Kind::Stop;
+            return message;
+        }
         message.moving = given.value("moving", false);
         message.id = given.value("id", std::int64_t{0});
         message.kind =

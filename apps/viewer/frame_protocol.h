@@ -3,9 +3,10 @@
 ///
 /// Conventions: a message to the server is a JSON object: first {"token": KEY}; then requests (a
 /// body of /frame with `id`, and `moving` if the next picture must wait until this one is shown),
-/// and {"shown": id} for each picture that has arrived. A message from the server is a state, as
-/// JSON in a text message, or a picture in a binary message: the length of a JSON text (four bytes,
-/// least significant first), the text (`id`, `status`, `type`, `facts`), the body.
+/// {"shown": id} for each picture that has arrived, and {"stop": true} with the `client` of /stop.
+/// A message from the server is a state, as JSON in a text message, or a picture in a binary
+/// message: the length of a JSON text (four bytes, least significant first), the text (`id`,
+/// `status`, `type`, `facts`), the body.
 
 #include <cstdint>
 #include <string>
@@ -16,7 +17,7 @@
 namespace alhazen::viewer {
 
 struct ClientMessage {
-    enum class Kind { Bad, Token, Shown, Wish };
+    enum class Kind { Bad, Token, Shown, Wish, Stop };
     Kind kind = Kind::Bad;
     std::string token;
     std::int64_t id = 0;

@@ -4,12 +4,12 @@
 ///
 /// Conventions: messages are those of frame_protocol.h. The token comes first, within 5 s and 1
 /// KiB; a wrong one closes the connection with 1008. A request replaces a pending one, and ends a
-/// running one that is not `moving`. The next picture is sent after the previous one has arrived
-/// ("shown"); meanwhile another may be rendered, which a newer one replaces. States are polled ten
-/// times a second unless one waits to be sent; they are sent when they change, and each second as a
-/// sign of life. Memory for a client that does not read is therefore bounded: one state and three
-/// pictures. Messages to the server have at most 1 MiB (1009); invalid messages close the
-/// connection with 1007; a client that answers no ping for 5 s is disconnected.
+/// running one that is not `moving`; a stop ends both. The next picture is sent after the previous
+/// one has arrived ("shown"); meanwhile another may be rendered, which a newer one replaces. States
+/// are polled ten times a second unless one waits to be sent; they are sent when they change, and
+/// each second as a sign of life. Memory for a client that does not read is therefore bounded: one
+/// state and three pictures. Messages to the server have at most 1 MiB (1009); invalid messages
+/// close the connection with 1007; a client that answers no ping for 5 s is disconnected.
 /// Threads: everything runs in the strand of the stream, except the handler.
 /// Included only by http_server.cpp.
 
@@ -118,6 +118,11 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
 
     void take(const ClientMessage& message) {
         if (message.kind == ClientMessage::Kind::Shown) on_way_ = false;
+        if (message.kind == ClientMessage::Kind::Stop) {
+            pending_.reset();
+            if (stop_) stop_->request();
+            (void)handler_({"/stop", text_, nullptr, {}});
+        }
         if (message.kind == ClientMessage::Kind::Wish) {
             pending_ = Wish{message.id, message.moving, std::move(text_)};
             if (stop_ && !working_.moving) stop_->request();

@@ -40,6 +40,10 @@ using tcp = asio::ip::tcp;
 namespace {
 
 constexpr int kMostClients = 8;
+constexpr int kMostGuests = 4;  // further ones, which get the files of the page
+constexpr std::string_view kFull =
+    "This server has 8 clients at most, and each page is one: close another, then load this one "
+    "again.\n";
 constexpr auto kPatience = std::chrono::seconds(5);
 constexpr std::uint32_t kMostHeader = 8 * 1024;
 constexpr std::uint64_t kMostBody = 1024 * 1024;
@@ -183,11 +187,15 @@ struct HttpServer::State {
         return plain(404, "there is no such file\n");
     }
 
+    /// Exact addresses: 'self' would allow a WebSocket to any path. Policies have no addresses of
+    /// IPv6 (Content Security Policy Level 3, host-part).
+    static std::string connections(const std::string& host) {
+        return host.front() == '[' ? "'self'" : "http://" + host + " ws://" + host + "/frames";
+    }
+
     /// `host`: name by which the page calls this server; empty: the request is refused.
     static std::string text_of(const HttpResponse& response, bool keep, const std::string& host) {
-        // Exact addresses: 'self' would allow a WebSocket to any path.
-        const std::string ways =
-            host.empty() ? "'none'" : "http://" + host + " ws://" + host + "/frames";
+        const std::string ways = host.empty() ? "'none'" : connections(host);
         const beast::string_view reason =
             http::obsolete_reason(http::int_to_status(static_cast<unsigned>(response.status)));
         std::string text = fmt::format("HTTP/1.1 {} {}\r\n", response.status, view_of(reason));
@@ -225,7 +233,8 @@ struct HttpServer::State {
                    : 0;
     }
 
-    asio::awaitable<void> serve(beast::tcp_stream stream) {
+    /// `guest`: only the files of the page are served, once.
+    asio::awaitable<void> serve(beast::tcp_stream stream, bool guest) {
         beast::flat_buffer buffer(kMostHeader + kMostBody);
         for (bool keep = true; keep;) {
             http::request_parser<http::string_body> parser;
@@ -242,8 +251,13 @@ struct HttpServer::State {
             }
             stream.expires_never();
             const HttpRequest& request = parser.get();
-            keep = request.keep_alive();
+            // The last place is given back at once, to the socket of the same page for example.
+            keep = request.keep_alive() && clients.load() < kMostClients;
             std::optional<HttpResponse> refused = refusal(request);
+            if (!refused && guest &&
+                (request.method() == http::verb::post || is_upgrade(request))) {
+                refused = plain(503, std::string(kFull));
+            }
             if (!refused && is_upgrade(request)) {
                 // A client that follows the protocol sends nothing before the response.
                 if (buffer.size() > 0) break;
@@ -271,10 +285,11 @@ struct HttpServer::State {
             ~Counted() { --clients; }
         } const counted{clients};
         try {
-            if (clients.load() > kMostClients) {
-                co_await send(stream, plain(503, "too many clients\n"), false);
+            const int count = clients.load();
+            if (count > kMostClients + kMostGuests) {
+                co_await send(stream, plain(503, std::string(kFull)), false);
             } else {
-                co_await serve(std::move(stream));
+                co_await serve(std::move(stream), count > kMostClients);
             }
         } catch (const boost::system::system_error&) {
             // The client has disconnected or timed out.

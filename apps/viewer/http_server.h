@@ -5,10 +5,11 @@
 /// status: size of header (8 KiB, 431) and body (1 MiB, 413), syntax (400); Host is this server
 /// (403: refuses other names that resolve here, which defeats DNS rebinding); Origin, if present,
 /// and always for POST, is this server (403); method (405); except for the files of the page, the
-/// token in Authorization (401). At most 8 clients (503); 5 s for a request to arrive, and between
-/// requests. GET /frames opens a WebSocket (frame_socket.h) after the same checks with its Origin;
-/// the policy of the page allows connections only to it and to this server. Nothing is read from
-/// the file system.
+/// token in Authorization (401). At most 8 clients (503), the last of which is disconnected after a
+/// response; four more get files of the page alone, so that it can say that the server is full; 5 s
+/// for a request to arrive, and between requests. GET /frames opens a WebSocket (frame_socket.h)
+/// after the same checks with its Origin; the policy of the page allows connections only to it and
+/// to this server. Nothing is read from the file system.
 /// Threads: `run` uses one thread per client; the handler is called from these threads.
 
 #include <cstdint>

@@ -8,8 +8,6 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/session/framing/framing.h"
-#include "alhazen/session/render.h"
 #include "view_menus.h"
 
 namespace alhazen::viewer {
@@ -125,10 +123,8 @@ void SceneStore::read_files(Reading& reading) {
         throw;
     }
     LoadedScene& scene = next->scene;
-    FramingOptions framing;
-    framing.aspect = free_aspect(scene.description.picture, {});
-    (void)complete_view(scene.description, scene.scene, framing);
-    Json menus = view_menus(scene);
+    next->added = complete(scene);
+    Json menus = view_menus(scene, next->added, load_.compile.accelerator);
     // The previous scene is freed after the lock.
     std::shared_ptr<const Loaded> last = std::move(next);
     Moved last_moved;
@@ -176,6 +172,7 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::built(const Loaded& source
     auto next = std::make_shared<Loaded>();
     next->scene.scene = source.scene.scene;
     next->scene.scene.aggregate = nullptr;
+    next->added = source.added;
     next->accelerator = accelerator;
     next->version = source.version;
     CompileOptions options = load_.compile;
@@ -199,6 +196,7 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::moved(
         if (moved_.from.lock() == here && moved_.changes == surfaces) return moved_.scene;
     }
     auto next = std::make_shared<Loaded>();
+    next->added = here->added;
     next->accelerator = here->accelerator;
     next->version = here->version;
     CompileOptions options = load_.compile;

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "added_lights.h"
 #include "alhazen/base/progress.h"
 #include "alhazen/session/lighting.h"
 #include "file_stamps.h"
@@ -31,6 +32,7 @@ class SceneStore {
     /// An immutable scene.
     struct Loaded {
         LoadedScene scene;
+        AddedLights added;
         std::string accelerator;
         std::uint64_t version = 0;  ///< of the files, from 1
     };

@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/base/error.h"
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/formats/native/write/native_writer.h"
 #include "alhazen/imaging/figures/false_color.h"
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/laboratory/traversal_trace.h"
@@ -35,16 +37,84 @@ json list_of(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-json camera_json(const Scene& scene, const CameraDescription& described) {
+/// The size of the picture of a camera; of the first if its own is out of range.
+FrameSize size_for(const LoadedScene& loaded, double aspect) {
+    const PictureSettings& picture = loaded.description.picture;
+    try {
+        return frame_size(picture, {}, aspect);
+    } catch (const Error&) {
+        return frame_size(picture, {}, loaded.scene.cameras.front().aspect);
+    }
+}
+
+json lens_json(const Lens& lens) {
+    return {{"radius", lens.radius},
+            {"focus_distance", lens.focus_distance},
+            {"blades", lens.blades},
+            {"turn", lens.turn}};
+}
+
+json light_json(const NamedLight& light) {
+    json entry{{"name", light.name},
+               {"what", light.kind},
+               {"color", {light.color.r, light.color.g, light.color.b}}};
+    if (light.position) entry["position"] = list_of(*light.position);
+    if (light.direction) entry["direction"] = list_of(*light.direction);
+    for (const ExtentSize& size : light.sizes) {
+        entry["sizes"].push_back({{"name", size.name}, {"value", size.value}});
+    }
+    return entry;
+}
+
+/// The position of the added light among the choices.
+std::size_t added_choice(const SceneDescription& description) {
+    return description.lights.size() - 1;
+}
+
+json camera_json(const LoadedScene& loaded, const AddedLights& added, std::size_t i) {
+    const CameraDescription& described = loaded.scene.cameras[i];
     const PicturePlane plane = picture_plane(described.camera);
-    return {{"name", described.name},
-            {"eye", list_of(plane.eye)},
-            {"look", list_of(plane.forward)},
-            {"right", list_of(plane.right)},
-            {"up", list_of(plane.up)},
-            {"aspect", described.aspect},
-            {"parallel", std::holds_alternative<OrthographicCamera>(described.camera)},
-            {"distance", distance_in_middle(scene, described.camera)}};
+    double aspect = described.aspect;
+    FrameSize frame = size_for(loaded, aspect);
+    if (std::holds_alternative<WideCamera>(described.camera)) {
+        aspect = length(plane.right) / length(plane.up);
+        frame.height = std::max(1, static_cast<int>(std::lround(frame.width / aspect)));
+    }
+    json camera{{"name", described.name},
+                {"eye", list_of(plane.eye)},
+                {"look", list_of(plane.forward)},
+                {"right", list_of(plane.right)},
+                {"up", list_of(plane.up)},
+                {"aspect", aspect},
+                {"width", frame.width},
+                {"height", frame.height},
+                {"parallel", std::holds_alternative<OrthographicCamera>(described.camera)},
+                {"distance", distance_in_middle(loaded.scene, described.camera)}};
+    const auto* const perspective = std::get_if<PerspectiveCamera>(&described.camera);
+    if (perspective != nullptr && perspective->lens.radius > 0.0) {
+        camera["lens"] = lens_json(perspective->lens);
+    }
+    if (!described.keys.empty()) {
+        camera["block"] = native_camera_text(loaded.description.cameras[i]);
+    }
+    if (added.is_another(i)) {
+        const SceneDescription lights = lights_of(loaded.description, added, i);
+        camera["headlight"] = light_json(light_choices(lights)[added_choice(lights)]);
+    }
+    return camera;
+}
+
+/// The accelerators, after the one of the start if it has a setting.
+json accelerator_menu(const std::string& chosen) {
+    json menu = json::array();
+    const auto& table = accelerator_table();
+    const bool known = std::any_of(table.begin(), table.end(),
+                                   [&](const auto& entry) { return chosen == entry.name; });
+    if (!known) menu.push_back({{"name", chosen}, {"what", "as chosen at the start"}});
+    for (const auto& entry : table) {
+        menu.push_back({{"name", entry.name}, {"what", entry.description}});
+    }
+    return menu;
 }
 
 /// The renderers that need no other geometry than is loaded. `depth`: the default, unless it is
@@ -87,43 +157,38 @@ json menu_of(const Table& table) {
 
 }  // namespace
 
-json view_menus(const LoadedScene& loaded) {
-    json lights = json::array();
+json view_menus(const LoadedScene& loaded, const AddedLights& added,
+                const std::string& accelerator) {
+    const Scene& scene = loaded.scene;
+    json lights = json::array(), cameras = json::array();
     for (const NamedLight& light : light_choices(loaded.description)) {
-        json entry{{"name", light.name},
-                   {"what", light.kind},
-                   {"color", {light.color.r, light.color.g, light.color.b}}};
-        if (light.position) entry["position"] = list_of(*light.position);
-        if (light.direction) entry["direction"] = list_of(*light.direction);
-        for (const ExtentSize& size : light.sizes) {
-            entry["sizes"].push_back({{"name", size.name}, {"value", size.value}});
-        }
-        lights.push_back(std::move(entry));
+        lights.push_back(light_json(light));
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        cameras.push_back(camera_json(loaded, added, i));
     }
     static const json kRenderers = renderer_menu();
-    const Scene& scene = loaded.scene;
-    const FrameSize frame =
-        frame_size(loaded.description.picture, {}, scene.cameras.front().aspect);
-    json cameras = json::array();
-    for (const CameraDescription& camera : scene.cameras) {
-        cameras.push_back(camera_json(scene, camera));
+    json menus{{"scene", loaded.description.path.filename().string()},
+               {"width", cameras[0]["width"]},
+               {"height", cameras[0]["height"]},
+               {"up", loaded.description.up_axis == UpAxis::Z ? "z" : "y"},
+               {"depth", scene.conventions.shading.max_depth},
+               {"cameras", std::move(cameras)},
+               {"renderers", kRenderers},
+               {"accelerators", accelerator_menu(accelerator)},
+               {"lights", std::move(lights)},
+               {"environments", menu_of(environments())},
+               {"layers", menu_of(aov_table())},
+               {"scales",
+                {{"heat", scale_json(ColorScale::Colors::Heat)},
+                 {"grey", scale_json(ColorScale::Colors::NearGrey)}}},
+               {"curves", kToneCurveNames},
+               {"steps", traceable_accelerators()}};
+    if (added.any) {
+        menus["added_light"] = {{"name", menus["lights"][added_choice(loaded.description)]["name"]},
+                                {"follows_light", added.follows_light}};
     }
-    return {{"scene", loaded.description.path.filename().string()},
-            {"width", frame.width},
-            {"height", frame.height},
-            {"up", loaded.description.up_axis == UpAxis::Z ? "z" : "y"},
-            {"depth", scene.conventions.shading.max_depth},
-            {"cameras", std::move(cameras)},
-            {"renderers", kRenderers},
-            {"accelerators", menu_of(accelerator_table())},
-            {"lights", std::move(lights)},
-            {"environments", menu_of(environments())},
-            {"layers", menu_of(aov_table())},
-            {"scales",
-             {{"heat", scale_json(ColorScale::Colors::Heat)},
-              {"grey", scale_json(ColorScale::Colors::NearGrey)}}},
-            {"curves", kToneCurveNames},
-            {"steps", traceable_accelerators()}};
+    return menus;
 }
 
 }  // namespace alhazen::viewer

@@ -16,7 +16,6 @@
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/picture.h"
 #include "frame_protocol.h"
-#include "view_wishes.h"
 #include "wish_values.h"
 
 namespace alhazen::viewer {
@@ -92,6 +91,25 @@ EncodedImage picture_of(const RenderResult& result, const FrameWish& wish,
     return std::move(layer.image);
 }
 
+bool same(const PicturePlane& a, const PicturePlane& b) {
+    return a.eye == b.eye && a.forward == b.forward && a.right == b.right && a.up == b.up;
+}
+
+/// A view that is still where a camera of the scene is becomes that camera, with its motion.
+void take_camera(FrameWish& wish, const Scene& scene) {
+    if (wish.of >= scene.cameras.size()) return;
+    const CameraDescription& own = scene.cameras[wish.of];
+    if (own.camera.index() != wish.camera.camera.index()) return;
+    if (!same(picture_plane(own.camera), picture_plane(wish.camera.camera))) return;
+    wish.camera = own;
+}
+
+/// The changes that may move surfaces. A scene without lights of its own has none; its headlight
+/// depends on the camera.
+std::vector<LightChange> surfaces_in(const FrameWish& wish, const AddedLights& added) {
+    return added.of_cameras.empty() ? wish.lighting.changes : std::vector<LightChange>();
+}
+
 }  // namespace
 
 /// Registers the work of a client until destruction, and ends its previous work.
@@ -161,9 +179,18 @@ Response ViewSession::state(const std::string& known) const {
     return {200, "application/json", text_of(state), "", std::move(version)};
 }
 
-std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneDescription& description,
-                                      Lighting lighting) {
-    if (lighting.is_that_of_the_scene()) return std::nullopt;
+std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneStore::Loaded& here,
+                                      const FrameWish& wish) {
+    Lighting lighting = wish.lighting;
+    const SceneDescription& description = here.scene.description;
+    const bool follows = follows_light(wish.options.renderer);
+    if (follows && here.added.studio && lighting.environment.empty()) {
+        lighting.environment = "studio";
+    }
+    if (lighting.is_that_of_the_scene() && !here.added.is_left_out(follows, lighting) &&
+        !here.added.is_another(wish.of)) {
+        return std::nullopt;
+    }
     if (!lighting.environment.empty()) {
         const std::lock_guard lock(surroundings_mutex_);
         const auto [place, is_new] =
@@ -171,20 +198,20 @@ std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneDescription
         if (is_new) place->second = make_environment(lighting.environment, description.up_axis);
         lighting.surroundings = place->second;
     }
-    return with_lighting(scene, description, lighting);
+    return with_lighting(scene, description, lighting, here.added, wish.of, follows);
 }
 
 Response ViewSession::frame(const json& request, Turn& turn) {
     FrameWish wish = frame_wish(request);
     const auto here = scenes_.with(text_in(request, "accelerator", ""), turn.flag());
+    take_camera(wish, here->scene.scene);
     wish.options.view = &wish.camera;
     wish.options.threads = threads_;
     wish.options.stop = &turn.flag();
     wish.options.progress = &turn;
     if (turn.flag().requested()) return turn.ended();
-    const auto placed = scenes_.moved(here, wish.lighting.changes, turn.flag());
-    const std::optional<Scene> other =
-        lit(placed->scene.scene, here->scene.description, std::move(wish.lighting));
+    const auto placed = scenes_.moved(here, surfaces_in(wish, here->added), turn.flag());
+    const std::optional<Scene> other = lit(placed->scene.scene, *here, wish);
     const RenderResult result = render_with_description(other ? *other : placed->scene.scene,
                                                         placed->scene.description, wish.options);
     if (!result.complete) return turn.ended();
@@ -203,11 +230,11 @@ Response ViewSession::frame(const json& request, Turn& turn) {
 }
 
 Response ViewSession::explain(const json& request, Turn& turn) {
-    const FrameWish wish = frame_wish(request);
+    FrameWish wish = frame_wish(request);
     const auto here = scenes_.with(text_in(request, "accelerator", ""), turn.flag());
-    const auto placed = scenes_.moved(here, wish.lighting.changes, turn.flag());
-    const std::optional<Scene> other =
-        lit(placed->scene.scene, here->scene.description, wish.lighting);
+    take_camera(wish, here->scene.scene);
+    const auto placed = scenes_.moved(here, surfaces_in(wish, here->added), turn.flag());
+    const std::optional<Scene> other = lit(placed->scene.scene, *here, wish);
     ExplainOptions options;
     options.scene = other ? &*other : nullptr;
     options.render = wish.options;
@@ -229,7 +256,12 @@ Response ViewSession::explain(const json& request, Turn& turn) {
 Response ViewSession::blocks(const json& wish) {
     const StopFlag never;
     const auto here = scenes_.with("", never);
-    const std::string text = changed_light_blocks(here->scene.description, light_changes(wish));
+    const SceneDescription& description = here->scene.description;
+    const std::size_t camera = camera_number(wish);
+    const std::string text =
+        here->added.is_another(camera)
+            ? changed_light_blocks(lights_of(description, here->added, camera), light_changes(wish))
+            : changed_light_blocks(description, light_changes(wish));
     return {200, "application/json", text_of({{"text", text}}), "", ""};
 }
 

@@ -17,6 +17,7 @@
 #include "alhazen/session/lighting.h"
 #include "http_server.h"
 #include "scene_store.h"
+#include "view_wishes.h"
 
 namespace alhazen::viewer {
 
@@ -41,9 +42,9 @@ class ViewSession {
     [[nodiscard]] Response explain(const Json& wish, Turn& turn);
     [[nodiscard]] Response blocks(const Json& wish);
     [[nodiscard]] Response stop(const Json& wish);
-    /// `scene` with the lighting; none if unchanged. `description` is that of the file.
-    [[nodiscard]] std::optional<Scene> lit(const Scene& scene, const SceneDescription& description,
-                                           Lighting lighting);
+    /// `scene` with the lighting of a frame; none if unchanged. `here`: as the file has it.
+    [[nodiscard]] std::optional<Scene> lit(const Scene& scene, const SceneStore::Loaded& here,
+                                           const FrameWish& wish);
 
     SceneStore scenes_;
     const int threads_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/antialias_settings.h"
@@ -24,6 +25,24 @@ Vec3 finite_in(const json& wish, const char* key) {
     return vector;
 }
 
+Lens lens_in(const json& camera) {
+    Lens lens;
+    const json* const given = find_in(camera, "lens");
+    if (given == nullptr) return lens;
+    lens.radius = number_in(*given, "radius", 0.0);
+    lens.focus_distance = number_in(*given, "focus_distance", 1.0);
+    lens.blades = whole_in(*given, "blades", 0, 0, 1000);
+    lens.turn = number_in(*given, "turn", 0.0);
+    if (!(lens.radius >= 0.0 && std::isfinite(lens.radius) && lens.focus_distance > 0.0 &&
+          std::isfinite(lens.focus_distance) && std::isfinite(lens.turn) && lens.blades != 1 &&
+          lens.blades != 2)) {
+        throw Error(ErrorKind::Usage,
+                    "the lens must have a radius that is not negative, a focus distance above 0 "
+                    "and no blades or 3 to 1000");
+    }
+    return lens;
+}
+
 Camera camera_in(const json& wish) {
     const Vec3 eye = finite_in(wish, "eye"), look = finite_in(wish, "look");
     const Vec3 right = finite_in(wish, "right"), up = finite_in(wish, "up");
@@ -31,7 +50,16 @@ Camera camera_in(const json& wish) {
         throw Error(ErrorKind::Usage, "the camera has no extent");
     }
     if (flag_in(wish, "parallel")) return OrthographicCamera{eye, look, right, up};
-    return PerspectiveCamera{eye, look, right, up};
+    return PerspectiveCamera{eye, look, right, up, lens_in(wish)};
+}
+
+/// The picture's width / height for which the sides of the camera are given.
+double aspect_in(const json& camera, double usual) {
+    const double aspect = number_in(camera, "aspect", usual);
+    if (!(aspect > 0.0 && std::isfinite(aspect))) {
+        throw Error(ErrorKind::Usage, "the aspect of the camera must be above 0");
+    }
+    return aspect;
 }
 
 ToneMapping tone_in(const json& wish) {
@@ -120,13 +148,19 @@ std::vector<LightChange> light_changes(const json& wish) {
     return changes;
 }
 
+std::size_t camera_number(const json& camera) {
+    return static_cast<std::size_t>(whole_in(camera, "of", 0, 0, std::numeric_limits<int>::max()));
+}
+
 FrameWish frame_wish(const json& wish) {
     FrameWish result;
     RenderOptions& options = result.options;
     options.width = whole_in(wish, "width", 640, 1, 4096);
     options.height = whole_in(wish, "height", 360, 1, 4096);
-    result.camera.camera = camera_in(value_in(wish, "camera"));
-    result.camera.aspect = static_cast<double>(*options.width) / *options.height;
+    const json& camera = value_in(wish, "camera");
+    result.camera.camera = camera_in(camera);
+    result.camera.aspect = aspect_in(camera, static_cast<double>(*options.width) / *options.height);
+    result.of = camera_number(camera);
     options.renderer = text_in(wish, "renderer", "whitted");
     options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
     if (wish.contains("depth")) {

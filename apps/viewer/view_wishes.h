@@ -16,6 +16,7 @@ namespace alhazen::viewer {
 /// The camera and the options of a frame.
 struct FrameWish {
     CameraDescription camera;
+    std::size_t of = 0;     ///< the camera of the scene at which the view began
     RenderOptions options;  ///< without `view`, `threads` and `stop`
     Lighting lighting;      ///< without its environment
     ToneMapping tone;
@@ -26,6 +27,9 @@ struct FrameWish {
 
 /// The changes of lights of a request.
 [[nodiscard]] std::vector<LightChange> light_changes(const nlohmann::ordered_json& wish);
+
+/// The position of the camera at which the view began; 0 if it is missing.
+[[nodiscard]] std::size_t camera_number(const nlohmann::ordered_json& camera);
 
 [[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);
 

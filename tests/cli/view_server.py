@@ -14,6 +14,7 @@ import tempfile
 import threading
 import time
 import unittest
+import zlib
 
 # Factor of time limits, for example under a sanitizer.
 SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
@@ -46,6 +47,47 @@ WISH = {"width": 80, "height": 60, "renderer": "whitted", "accelerator": "wide_b
 DEEP = SCENE.replace("max_depth = 4", "max_depth = 4; min_contribution = 0") + '''
 material "glass" { transmissive = 0.9; reflective = 0.5; index = 1.3 }
 ''' + "".join(f'sphere {{ center = (0, 1, 0); radius = {1.2 + 0.2 * i}; material = "glass" }}\n' for i in range(8))
+
+
+def png_pixels(data):
+    """Width, height and the bytes of red, green and blue of a PNG of 8 bits without alpha or palette."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:20]
+    at, packed, channels = 8, b"", 3
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, bits, color = struct.unpack(">IIBB", body[:10])
+            assert (bits, color) in ((8, 0), (8, 2)), (bits, color)
+            channels = 3 if color == 2 else 1
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    raw, stride = zlib.decompress(packed), channels * width
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride if kind else 0):
+            left, up = line[i - channels] if i >= channels else 0, above[i]
+            corner = above[i - channels] if i >= channels else 0
+            if kind == 4:
+                p = left + up - corner
+                guess = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))[2]
+            else:
+                guess = (0, left, up, (left + up) // 2)[kind]
+            line[i] = (line[i] + guess) & 255
+        above = bytes(line)
+        rows.append(above if channels == 3 else bytes(c for c in above for _ in range(3)))
+    return width, height, b"".join(rows)
+
+
+def rendered(alhazen, scene, *options):
+    """Width, height and pixels of the picture of `alhazen render`."""
+    with tempfile.TemporaryDirectory() as folder:
+        picture = pathlib.Path(folder) / "picture.png"
+        subprocess.run([alhazen, "render", str(scene), "-o", str(picture), "-q", *options], check=True,
+                       timeout=120 * SLOWDOWN)
+        return png_pixels(picture.read_bytes())
 
 
 class Server:
@@ -149,6 +191,13 @@ class Server:
             assert time.monotonic() - begin < 60 * SLOWDOWN, state
             time.sleep(0.02)
         return state
+
+    def wish_at(self, camera, **change):
+        """The request of a page at a camera of the scene, for its whole picture."""
+        own = self.state()["cameras"][camera]
+        keys = ("eye", "look", "right", "up", "parallel", "aspect", "lens")
+        return {**WISH, "width": own["width"], "height": own["height"],
+                "camera": {**{key: own[key] for key in keys if key in own}, "of": camera}, **change}
 
     def frames(self, **change):
         return FrameSocket(self, change)

@@ -15,7 +15,7 @@ import sys
 import time
 import unittest
 
-from view_server import DEEP, LIGHTS, SCENE, WISH, Server, ServerTest
+from view_server import DEEP, LIGHTS, SCENE, WISH, Server, ServerTest, png_pixels, rendered
 
 ALHAZEN = sys.argv[1]
 
@@ -156,6 +156,12 @@ class ViewServer(ServerTest):
                 ("/frame", {"camera": {**WISH["camera"], "eye": [0, "a", 0]}}, "eye must be a list of numbers"),
                 ("/frame", {"camera": {**WISH["camera"], "up": [0, 1]}}, "up must be three numbers, found [0,1]"),
                 ("/frame", {"camera": [1] * 100}, "expected an object, found [1,1"),
+                ("/frame", {"camera": {**WISH["camera"], "of": -1}}, "of must be a whole number from 0"),
+                ("/frame", {"camera": {**WISH["camera"], "aspect": 0}}, "the aspect of the camera must be above 0"),
+                ("/frame", {"camera": {**WISH["camera"], "lens": 1}}, "expected an object, found 1"),
+                ("/frame", {"camera": {**WISH["camera"], "lens": {"radius": -1}}}, "the lens must have a radius"),
+                ("/frame", {"camera": {**WISH["camera"], "lens": {"focus_distance": 0}}}, "the lens must have a radius"),
+                ("/frame", {"camera": {**WISH["camera"], "lens": {"blades": 2}}}, "no blades or 3 to 1000"),
                 ("/frame", {"client": 7}, "client must be a text, found 7"),
                 ("/explain", {"x": [], "y": 0}, "x must be a whole number from 0 to 79, found []"),
                 ("/explain", {"x": 0}, "y is missing"), ("/stop", {"client": {}}, "client must be a text, found {}")):
@@ -188,6 +194,72 @@ class ViewServer(ServerTest):
         large = {**WISH, "png": True, "renderer": "ray_casting", "width": 1024, "height": 768}
         self.assertEqual(server.ask("/frame", large)[0], 200)
         self.assertEqual(threads(), before)
+
+    def test_frames_at_a_camera_of_the_scene_are_those_of_render(self):
+        lens = " lens_radius = 0.3; focus_distance = 3; blades = 5; blade_turn_deg = 20 }"
+        motion = " motion = [(0, translate(0.1, 0, 0)), (1, translate(0.7, 0, 0))] }"
+        field = "fov_deg = 40"
+        bare = "\n".join(line for line in SCENE.split("\n") if not line.startswith("point_light"))
+        scene = self.scene.with_name("own.alhazen")
+        for text in (SCENE.replace(field + " }", field + ";" + lens), SCENE.replace(field + " }", field + ";" + motion),
+                     SCENE.replace(field, "fov_deg = 40; aspect = 1.7"), bare, bare.replace("0.1, 0.15, 0.3", "0, 0, 0"),
+                     bare.replace('material "red" {', 'material "red" { emission = 2;'),
+                     bare.replace("; background = (0.1, 0.15, 0.3)", "")):
+            scene.write_text(text, encoding="utf-8")
+            server = Server(ALHAZEN, scene)
+            try:
+                for renderer, camera in (("path_tracing", 0), ("distributed", 1), ("whitted", 1)):
+                    wish = server.wish_at(camera, renderer=renderer, samples=4, png=True)
+                    status, _, body = server.ask("/frame", wish)
+                    self.assertEqual(status, 200, body)
+                    own = rendered(ALHAZEN, scene, "--spp", "4", "--renderer", renderer, "--camera", str(camera))
+                    self.assertTrue(png_pixels(body) == own, (text[:200], renderer))
+                # A view elsewhere keeps the lens, and no motion.
+                moved = {**wish, "renderer": "distributed", "camera": {**wish["camera"], "eye": [6, 1, 0.25]}}
+                still = {**moved, "camera": {**moved["camera"], "of": 7}}
+                self.assertEqual(server.ask("/frame", moved)[2] == server.ask("/frame", still)[2], "point_light" in text)
+            finally:
+                server.close()
+
+    def test_a_headlight_is_that_of_the_camera(self):
+        scene = self.scene.with_name("bare.alhazen")
+        front = 'perspective_camera "front" { eye = (0, 1, 6); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }'
+        bare = "\n".join(line for line in SCENE.split("\n") if not line.startswith("point_light"))
+        self.assertIn(front, bare)
+        scene.write_text(bare.replace(front, 'orthographic_camera "front" { eye = (0, 1, 6); look_at = (0, 0.9, 0); height = 4 }'),
+                         encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            state = server.state()
+            self.assertEqual(state["added_light"], {"name": "headlight", "follows_light": False})
+            self.assertEqual(state["lights"][0]["what"], "directional light")
+            self.assertNotIn("headlight", state["cameras"][0])
+            light = state["cameras"][1]["headlight"]
+            self.assertEqual((light["what"], light["position"]), ("point light", [6, 1, 0]))
+            dim = [{"name": "headlight", "position": [6, 2, 0], "color": [0.1, 0.1, 0.1]}]
+            plain, changed, off = (server.ask("/frame", server.wish_at(1, png=True, **change))
+                                   for change in ({}, {"lights": dim}, {"lights_off": ["headlight"]}))
+            self.assertEqual([a[0] for a in (plain, changed, off)], [200] * 3)
+            self.assertEqual(len({a[2] for a in (plain, changed, off)}), 3)
+            self.assertEqual(server.ask("/frame", server.wish_at(0, lights=dim))[0], 400)
+            self.assertIn("position = (6, 2, 0)", server.ask("/blocks", {"lights": dim, "of": 1})[2].decode())
+            self.assertEqual(server.ask("/blocks", {"lights": dim})[0], 400)
+        finally:
+            server.close()
+
+    def test_an_accelerator_of_the_start_is_in_the_menu(self):
+        server = Server(ALHAZEN, self.scene, "--bound", "sphere")
+        try:
+            state = server.state()
+            self.assertEqual(state["accelerator"], "bounding_volumes:bound=sphere")
+            self.assertEqual([a["name"] for a in state["accelerators"]][:2], [state["accelerator"], "wide_bvh"])
+        finally:
+            server.close()
+
+    def test_the_policy_of_an_address_of_ipv6_is_the_page_itself(self):
+        host = f"[::1]:{self.server.port}"
+        _, headers, _ = self.server.ask("/", b"", "GET", Host=host, Origin=f"http://{host}")
+        self.assertIn("connect-src 'self'", headers["content-security-policy"].split("; "))
 
     def test_an_explanation_has_the_tree_of_the_pixel(self):
         status, _, body = self.server.ask("/explain", {**WISH, "x": 40, "y": 30, "steps": "list"})

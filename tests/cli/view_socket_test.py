@@ -161,6 +161,27 @@ class ViewSocket(ServerTest):
         self.assertEqual(ids, sorted(ids))
         self.assertLess(len(ids), 200)
 
+    def test_a_stop_ends_the_running_request_and_the_pending_one(self):
+        frames, other = self.open(), self.open()
+        for wish in ({**LONG, "id": 1, "client": "me", "moving": True}, {**LONG, "id": 2, "client": "me", "moving": True}):
+            frames.send(wish)
+        other.send({**LONG, "id": 3, "client": "you"})
+        for client in ("me", "you"):
+            while not any(w.get("client") == client for w in frames.state()["work"]):
+                pass
+        frames.send({"stop": True, "client": "me"})
+        head, _ = frames.picture()
+        self.assertEqual((head["id"], head["status"]), (1, 204))
+        frames.send({"shown": 1})
+        clients = [w.get("client") for _, body in frames.listen(1.5)[-1:] for w in json.loads(body)["work"]]
+        self.assertEqual(clients, ["you"])
+        other.send({"stop": True, "client": "you"})
+        self.assertEqual(other.picture()[0]["status"], 204)
+        for bad in ({"stop": 1}, {"stop": "x"}):
+            frames = self.open()
+            frames.send(bad)
+            self.assertEqual(frames.end(), 1007)
+
     def test_a_slow_client_has_one_picture_on_its_way(self):
         frames = self.open()
         for i in range(3):
@@ -245,6 +266,15 @@ class ViewSocket(ServerTest):
                 time.sleep(0.1)
         self.assertEqual(self.socket_of().status, 503)
         self.assertEqual(self.server.ask("/state", {})[0], 503)
+        # Four more get the files of the page, which says that the server is full.
+        for path in ("/", "/view.js", "/view.css"):
+            self.assertEqual(self.server.ask(path, b"", "GET", Origin=None)[0], 200)
+        time.sleep(0.3)
+        slow = self.server.connect_slowly(4)
+        time.sleep(0.3)
+        self.assertIn(b" 503 ", self.server.raw(b"").split(b"\r\n")[0])
+        for s in slow:
+            s.close()
         heads = [None] * 8
 
         def use(k):

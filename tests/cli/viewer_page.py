@@ -1,5 +1,6 @@
 """The page of `alhazen view` in a browser, for its tests. Program and, if given, folder of screenshots are the arguments."""
 
+import base64
 import pathlib
 import sys
 import tempfile
@@ -56,6 +57,37 @@ class ViewerPage(unittest.TestCase):
             g.drawImage(viewer.image, 0, 0, 16, 12);
             return [...g.getImageData(0, 0, 16, 12).data].join();
         })()""")
+
+    def shown(self):
+        """Width, height and pixels of the picture."""
+        width, height, text = self.page.value("""(() => {
+            const i = viewer.image, c = document.createElement("canvas");
+            [c.width, c.height] = [i.width, i.height];
+            const g = c.getContext("2d", {willReadFrequently: true});
+            g.drawImage(i, 0, 0);
+            const d = g.getImageData(0, 0, i.width, i.height).data;
+            let s = "";
+            for (let k = 0; k < d.length; k += 8192) s += String.fromCharCode(...d.subarray(k, k + 8192));
+            return [i.width, i.height, btoa(s)];
+        })()""")
+        data = base64.b64decode(text)
+        return width, height, b"".join(data[i:i + 3] for i in range(0, len(data), 4))
+
+    def serve(self, scene, *options):
+        """A server of another scene, and its page."""
+        self.server.close()
+        if hasattr(self, "page"):
+            self.page.close()
+        self.server = Server(ALHAZEN, scene, *options)
+        self.open(900, 700)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def click(self, text):
+        self.page.value(f"[...document.querySelectorAll('button')].find(b => b.textContent === '{text}').click()")
 
     def place(self, u, v):
         box = self.page.value("(b => [b.left, b.top, b.width, b.height])(viewer.image.getBoundingClientRect())")

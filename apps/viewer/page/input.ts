@@ -57,13 +57,25 @@ export function listen(image: HTMLElement, target: InputTarget) {
   }, {passive: false});
   image.addEventListener("keydown", e => {
     if (e.key === "Enter") return target.explain(0.5, 0.5);
-    if (e.key === "Escape") return target.stop();
     const held = e.ctrlKey || e.metaKey;
-    if (e.key === "z" && held) return target.undo();
     const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;  // letters regardless of Caps Lock
     const change = (e.shiftKey ? WITH_SHIFT[key] : undefined) ?? KEYS[key];
     if (!change || held || e.altKey) return;
     e.preventDefault();
     target.move(change, true);
+  });
+}
+
+/** Keys of the whole page, except in a field whose text is being changed. */
+export function listenAnywhere(target: InputTarget) {
+  let typed: EventTarget | null = null;
+  document.addEventListener("input", e => typed = e.target);
+  for (const end of ["change", "focusout"]) document.addEventListener(end, () => typed = null);
+  document.addEventListener("keydown", e => {
+    if (typed !== null && typed === e.target) return;
+    if (e.key === "Escape") return target.stop();
+    if (e.key.toLowerCase() !== "z" || !(e.ctrlKey || e.metaKey) || e.shiftKey || e.altKey) return;
+    e.preventDefault();  // the browser's own undo of texts
+    target.undo();
   });
 }

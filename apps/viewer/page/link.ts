@@ -26,6 +26,9 @@ export class FrameLink {
     setInterval(() => this.watch(), PAUSE);
   }
 
+  get connected() {
+    return this.open;
+  }
   /** False if the server is not connected. */
   send(message: object) {
     if (!this.open) return false;

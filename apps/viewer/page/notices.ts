@@ -3,7 +3,7 @@
 import {element, number} from "../../../src/alhazen/explain/page/basics";
 import type {CameraData, FrameFacts, LayerFacts, Scene, Work} from "./state";
 
-export type Topic = "server" | "file" | "frame" | "explain";
+export type Topic = "server" | "file" | "choice" | "frame" | "explain" | "save";
 
 /** One message per topic; an empty one removes it. */
 export class Messages {

@@ -32,7 +32,7 @@ export class Pace {
   /** Width and depth of the next picture. Without known times an eighth as wide, and two generations. */
   next(limits: PaceLimits) {
     this.width = clamped(this.width ?? limits.full / 8, 48, limits.full / 2);
-    this.depth = Math.min(this.depth ?? 2, limits.depth);
+    this.depth = Math.max(0, Math.min(this.depth ?? 2, limits.depth));
     return {width: Math.round(this.width), depth: limits.deepens ? this.depth : limits.depth};
   }
   /** `cost`: milliseconds since the previous picture, or since the request; `depth`: that of the picture. */

@@ -2,15 +2,26 @@
 
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
 
+export interface LensData {
+  radius: number;
+  focus_distance: number;
+  blades: number;
+  turn: number;  // radians
+}
 export interface CameraData {
   name: string;
   eye: Vec3;
   look: Vec3;
   right: Vec3;
   up: Vec3;
-  aspect: number;
+  aspect: number;    // width / height that the sides are given for
+  width: number;     // of its picture, pixels
+  height: number;
   parallel: boolean;
   distance: number;
+  lens?: LensData;   // undefined: a pinhole
+  block?: string;    // its block in the native format if it moves
+  headlight?: LightEntry;  // the added light for this camera if it differs from that of the first
 }
 export interface Choice {
   name: string;
@@ -48,6 +59,7 @@ export interface Menus {
   renderers: RendererChoice[];
   accelerators: Choice[];
   lights: LightEntry[];
+  added_light?: {name: string, follows_light: boolean};  // false: renderers that follow light do without
   environments: Choice[];
   layers: Choice[];
   scales: Record<"heat" | "grey", string[]>;
@@ -97,7 +109,8 @@ export interface FrameHead {
   facts: FrameFacts | null;
 }
 export interface Wish {
-  camera: Pick<CameraData, "eye" | "look" | "right" | "up" | "parallel">;
+  /** `of`: number of the camera that the view began at. */
+  camera: Pick<CameraData, "eye" | "look" | "right" | "up" | "parallel" | "aspect" | "lens"> & {of: number};
   width: number;
   height: number;
   renderer: string;

@@ -6,19 +6,22 @@ import {showExplanation} from "../../../src/alhazen/explain/page/explanation_vie
 import {ViewCamera} from "./camera";
 import {Controls} from "./controls";
 import type {Key, Settings} from "./controls";
-import {listen} from "./input";
+import {listen, listenAnywhere} from "./input";
 import {FrameLink} from "./link";
 import {Messages, WorkLine, doneText, drawScale, pictureName, statusText} from "./notices";
 import {Pace} from "./pace";
 import {PixelChoice} from "./pixel_choice";
-import type {CameraData, FrameFacts, FrameHead, LightChange, Scene, State, Wish} from "./state";
+import type {CameraData, FrameFacts, FrameHead, LightChange, LightEntry, Scene, State, Wish} from "./state";
 
-const WIDEST = 4096;          // widest picture of the server
+const MOST_SIDE = 4096;       // largest side of a picture of the server
 const MOST_RAW = 1.5e6;       // most pixels sent uncompressed; larger pictures are JPEG
 const STOPPED = "Reading the file was ended.";
 const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 const OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that " +
   "`alhazen view` printed.";
+const SILENT = "The server does not answer: waiting for it.";
+const BUSY = "The server is busy with other pages: it has 8 clients at most. Close one of them.";
+const BUSY_PATIENCE = 6000;   // milliseconds; the server disconnects idle clients after 5 s
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
 interface Asked {
@@ -35,7 +38,8 @@ export class Viewer {
   readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "No picture yet",
                                       "aria-describedby": "help"});
   readonly scale = element("div", {class: "scale", hidden: true});
-  readonly controls = new Controls((key, before) => this.chosen(key, before), changes => this.lightBlocks(changes));
+  readonly controls = new Controls((key, before) => this.chosen(key, before),
+                                   reasons => this.messages.say("choice", reasons), changes => this.lightBlocks(changes));
   scene: Scene | undefined;
   camera: ViewCamera | undefined;
   frames = 0;
@@ -62,6 +66,8 @@ export class Viewer {
   private held: object | undefined;       // work during which nothing is requested
   private explaining: object | undefined;
   private halted = false;                 // by Stop, until something changes
+  private busy = false;                   // the server refused this page a place
+  private shownAccelerator: string | undefined;
   private described = "";                 // of the displayed picture
   private shownAt = 0;
   private movingShown: number[] = [];     // times
@@ -83,9 +89,17 @@ export class Viewer {
       lost: () => {
         this.asked.clear();
         this.work.show(undefined);
-        this.messages.say("server", "The server does not answer: waiting for it.");
+        void this.sayWhyLost();
       },
       refused: () => this.messages.say("server", this.scene ? OTHER_SERVER : NO_KEY)});
+  }
+
+  // A server without a place refuses this page, too.
+  private async sayWhyLost() {
+    if (!this.busy) this.messages.say("server", SILENT);
+    const answer = await this.post("/state", {});
+    this.busy = answer?.status === 503;
+    if (!this.link.connected) this.messages.say("server", this.busy ? BUSY : SILENT);
   }
 
   private build() {
@@ -105,16 +119,36 @@ export class Viewer {
       element("div", {}, element("div", {class: "stage"}, this.image), this.scale, this.status, this.spoken, this.work.line, help),
       element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block, this.pixel.element));
     listen(this.image, this);
+    listenAnywhere(this);
   }
   // Null if the server does not respond, which the link reports.
-  private ask(path: string, wish: object = {}) {
+  private post(path: string, wish: object) {
     return fetch(path, {method: "POST", body: JSON.stringify({...wish, client: this.client}),
                         headers: {Authorization: `Bearer ${this.token}`}}).catch(() => null);
   }
+  // Waits for a place among the clients of the server.
+  private async ask(path: string, wish: object = {}, goesOn = () => true) {
+    const begin = performance.now();
+    for (;;) {
+      const answer = await this.post(path, wish);
+      if (answer?.status !== 503 || performance.now() - begin > BUSY_PATIENCE || !goesOn()) return answer;
+      await new Promise(go => setTimeout(go, 300));
+    }
+  }
+  // The response to work that frames requested earlier may end by arriving after it; null if the page gave it up.
+  private async askUndisturbed(path: string, wish: object, own: object) {
+    let answer: Response | null = null;
+    const goesOn = () => this.held === own;
+    for (let tries = 0; tries < 3 && goesOn() && (answer?.status ?? 204) === 204; ++tries) {
+      answer = await this.ask(path, wish, goesOn);
+    }
+    return goesOn() ? answer : null;
+  }
 
   private async lightBlocks(lights: LightChange[]) {
-    const answer = await this.ask("/blocks", {lights});
+    const answer = await this.ask("/blocks", {lights, of: this.chosenCamera()});
     if (!answer) return "// The server does not answer.\n";
+    if (answer.status === 503) return `// ${BUSY}\n`;
     const {text, error} = await answer.json() as {text?: string; error?: string};
     return text ?? `// ${error}\n`;
   }
@@ -137,13 +171,14 @@ export class Viewer {
       this.changed();
     }
   }
-  // The file has changed: finds the chosen camera by name, and moves a view that was still that camera's.
+  // The file has changed: finds the chosen camera, by name if it has one, and moves a view that was still that camera's.
   private refill(before: Scene, scene: Scene) {
-    const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
-    const same = scene.cameras.findIndex(c => c.name === old.name);
+    const chosen = this.chosenCamera(), old = before.cameras[chosen];
+    const same = scene.cameras[chosen]?.name === old.name || !old.name ? -1 : scene.cameras.findIndex(c => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
     this.fill(scene);
     this.controls.set("camera", String(index));
+    this.fitLights(scene);
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
   }
   private fill(scene: Scene) {
@@ -156,6 +191,16 @@ export class Viewer {
     const renderer = this.renders(this.controls.get("renderer"));
     this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
     this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
+    this.fitLights(scene);
+  }
+  // A light that was added to the scene belongs to the camera, and may be left out by renderers that follow light.
+  private fitLights(scene: Scene) {
+    const added = scene.added_light;
+    if (!added) return;
+    const follows = this.renders(this.controls.get("renderer"))?.follows_light;
+    const without = follows && (!added.follows_light || this.controls.get("environment") !== "");
+    const own = this.frame().headlight, lights = scene.lights.filter(l => !without || l.name !== added.name);
+    this.controls.setLights(lights.map((l): LightEntry => l.name === added.name && own ? own : l));
   }
   private see(camera: CameraData) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
@@ -165,20 +210,30 @@ export class Viewer {
     if (before) this.remember(before);
     if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
     if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if ((key === "environment" || key === "camera") && this.scene) this.fitLights(this.scene);
     if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
 
   // ---- Requests.
+  private chosenCamera() {
+    return Number(this.controls.get("camera"));
+  }
+  // The camera of the scene whose picture is shown.
+  private frame() {
+    return this.scene!.cameras[this.chosenCamera()];
+  }
+  // The width of the whole picture; one with a side that is too large is made smaller.
   private full() {
-    return Math.max(64, Math.min(this.scene?.width ?? 0, WIDEST));
+    const {width, height} = this.frame();
+    return Math.max(1, Math.floor(Math.min(width, MOST_SIDE, MOST_SIDE * width / height)));
   }
   private renders(name: string) {
     return this.scene?.renderers.find(r => r.name === name);
   }
   private wish(camera: ViewCamera, width: number): Wish {
-    const {eye, look, right, up, parallel} = camera, controls = this.controls;
-    return {camera: {eye, look, right, up, parallel}, width, height: this.heightFor(width),
+    const {eye, look, right, up, parallel, aspect, lens} = camera, controls = this.controls;
+    return {camera: {eye, look, right, up, parallel, aspect, lens, of: this.chosenCamera()}, width, height: this.heightFor(width),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
             depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
             environment: controls.get("environment"), lights_off: controls.lights.off(), lights: controls.lights.changes()};
@@ -213,27 +268,32 @@ export class Viewer {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) {  // the server ends it
+    if (this.held) {  // the server ends it
       this.explaining = this.held = undefined;
       this.status.textContent = this.described;
       this.spoken.textContent = "";
     }
+    this.messages.say("explain", "");
     this.request();
   }
   // The description of the picture.
   private name() {
-    const scene = this.scene!, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
+    const scene = this.scene!, camera = this.frame(), width = this.full();
     const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
     if (this.image.getAttribute("aria-label") !== name) this.image.setAttribute("aria-label", name);
     this.pixel.fit(width, this.heightFor(width));
   }
+  private widthOf(part: number) {
+    return Math.max(1, Math.round(this.full() * part));
+  }
   private heightFor(width: number) {
-    return Math.max(1, Math.round(width / (this.camera?.aspect ?? 1)));
+    const frame = this.frame();
+    return Math.min(MOST_SIDE, Math.max(1, Math.round(width * frame.height / frame.width)));
   }
   private request() {
     if (!this.camera || this.held || this.halted || this.done()) return;
     const [part, samples] = this.levels()[this.level], moving = this.level === 0;
-    const wish = moving ? this.movingWish(this.camera) : {...this.wish(this.camera, Math.round(this.full() * part)), samples};
+    const wish = moving ? this.movingWish(this.camera) : {...this.wish(this.camera, this.widthOf(part)), samples};
     const id = ++this.lastId;
     this.asked.set(id, {id, generation: this.generation, level: this.level, wish, begin: performance.now()});
     this.link.send({...wish, id, moving, client: this.client, raw: wish.width * wish.height <= MOST_RAW});
@@ -262,7 +322,7 @@ export class Viewer {
     if (!newest || asked.id !== this.lastId) return;
     // Skips levels that would not be larger than the displayed picture, except one of its size with full depth.
     const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
-    do ++this.level; while (this.level < 3 && Math.round(this.levels()[this.level][0] * this.full()) < least);
+    do ++this.level; while (this.level < 3 && this.widthOf(this.levels()[this.level][0]) < least);
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
@@ -278,8 +338,8 @@ export class Viewer {
     this.image.height = height;
     if (picture instanceof ImageData) this.g.putImageData(picture, 0, 0);
     else this.g.drawImage(picture, 0, 0);
-    const aspect = this.camera?.aspect ?? width / height;
-    document.documentElement.style.setProperty("--aspect", String(aspect));
+    const frame = this.frame();
+    document.documentElement.style.setProperty("--aspect", String(frame.width / frame.height));
     this.firstPicture ??= performance.now();
     ++this.frames;
   }
@@ -292,6 +352,7 @@ export class Viewer {
       this.movingShown = [...this.movingShown.filter(t => t > now - 1000), now];
     }
     this.shownAt = now;
+    this.shownAccelerator = asked.wish.accelerator;
     const span = now - this.movingShown[0], rate = span > 0 ? 1000 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
     this.status.textContent = this.described = statusText(
@@ -311,9 +372,10 @@ export class Viewer {
     this.seeChosen();
   }
   private seeChosen() {
-    if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
+    if (this.scene) this.see(this.frame());
   }
   private remember(settings = this.controls.settings()) {
+    this.messages.say("save", "");
     if (this.camera) this.undone.push({camera: this.camera.copy(), settings});
     if (this.undone.length > 100) this.undone.shift();
   }
@@ -331,17 +393,19 @@ export class Viewer {
     this.explaining = this.held = undefined;
     this.halted = true;
     this.asked.clear();
-    if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
-    void this.ask("/stop");
-    this.spoken.textContent = "Stopped";
-    this.messages.say("explain", "");
+    // Another is not built.
+    if (this.scene) this.controls.set("accelerator", this.shownAccelerator ?? this.scene.accelerator);
+    // Over the link, where this page has its place.
+    const sent = this.link.send({stop: true, client: this.client});
+    this.spoken.textContent = sent ? "Stopped" : "";
+    for (const topic of ["explain", "save"] as const) this.messages.say(topic, "");
     this.status.textContent = this.described;
   }
-  // Requests nothing until the work is done.
-  private async hold(work: () => Promise<void>) {
+  // Requests no frames until the work is done, or given up for a change.
+  private async hold(work: (own: object) => Promise<void>) {
     const own = this.held = {};
     try {
-      await work();
+      await work(own);
     } finally {
       if (this.held === own) {
         this.held = undefined;
@@ -350,11 +414,14 @@ export class Viewer {
     }
   }
   private save() {
-    return this.hold(async () => {
+    this.messages.say("save", "");
+    return this.hold(async own => {
       if (!this.camera) return;
       const wish = {...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), png: true};
-      const answer = await this.ask("/frame", wish);
-      if (answer?.status !== 200) return;
+      const answer = await this.askUndisturbed("/frame", wish, own);
+      if (this.held !== own) return this.messages.say("save", "The picture was not saved: it was ended.");
+      if (!answer) return;
+      if (answer.status !== 200) return this.messages.say("save", `The picture was not saved: ${await reasonOf(answer)}`);
       const link = element("a", {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
@@ -375,20 +442,16 @@ export class Viewer {
     const {x, y} = wish, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
-    void this.hold(async () => {
-      let answer: Response | null = null;
-      // A frame requested earlier may arrive after it and end it.
-      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
-        answer = await this.ask("/explain", {...wish, sample, steps: this.controls.get("steps")});
-      }
+    void this.hold(async held => {
+      const answer = await this.askUndisturbed("/explain", {...wish, sample, steps: this.controls.get("steps")}, held);
       if (this.explaining !== own) return;
       this.explaining = undefined;
       this.status.textContent = this.described;
       this.spoken.textContent = answer?.status === 204 ? "The explanation was ended" : "";
       if (!answer || answer.status === 204) return;
-      const data = await answer.json() as Explanation & {error?: string};
-      this.messages.say("explain", answer.ok ? "" : data.error ?? "");
+      this.messages.say("explain", answer.ok ? "" : await reasonOf(answer));
       if (!answer.ok) return;
+      const data = await answer.json() as Explanation;
       const root = document.getElementById("explanation")!;
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
@@ -398,4 +461,11 @@ export class Viewer {
       root.focus({preventScroll: true});
     });
   }
+}
+
+// Why there is no answer.
+async function reasonOf(answer: Response) {
+  if (answer.status === 204) return "it was ended";
+  const {error} = await answer.json().catch(() => ({})) as {error?: string};
+  return error ?? (answer.status === 503 ? BUSY : `${answer.status} ${answer.statusText}`);
 }

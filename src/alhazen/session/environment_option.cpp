@@ -103,6 +103,14 @@ void check_environment(const std::string& text, const std::string& renderer) {
     }
 }
 
+bool is_dark(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
+    // In a format without surroundings a glow up to white is a label or a display, not the light.
+    const double glow = loaded.description.conventions.importing.surroundings ? 1.0 : 0.0;
+    return !scene.environment && scene.background.is_black() &&
+           lacks_light(loaded.description, scene) && !glows(scene, glow);
+}
+
 std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
                                          const std::string& renderer, const ImageLimits& limits) {
     check_environment(text, renderer);
@@ -124,12 +132,7 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
         }
         return lines;
     }
-    const Scene& scene = loaded.scene;
-    // In a format without surroundings a glow up to white is a label or a display, not the light.
-    const double glow = loaded.description.conventions.importing.surroundings ? 1.0 : 0.0;
-    const bool dark = !scene.environment && scene.background.is_black() &&
-                      lacks_light(loaded.description, scene) && !glows(scene, glow);
-    if (!dark || !follows_light(renderer)) return {};
+    if (!follows_light(renderer) || !is_dark(loaded)) return {};
     EnvironmentSettings studio;
     studio.kind = EnvironmentKind::Studio;
     set(loaded, std::move(studio));

@@ -28,6 +28,10 @@ struct EnvironmentEntry {
 /// is neither a known word nor a file.
 void check_environment(const std::string& text, const std::string& renderer);
 
+/// True if a scene has no light that a physically based renderer sees: `set_environment` puts the
+/// studio around it. To be asked before `complete_view`.
+[[nodiscard]] bool is_dark(const LoadedScene& loaded);
+
 /// Sets the environment `text`: "sky", "studio", "none" (removes that of the file) or the name of a
 /// picture of all directions. Empty: keeps that of the file; a scene without any light gets the
 /// studio if the renderer is physically based. Returns notes of what was done, one sentence each.

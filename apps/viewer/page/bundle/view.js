@@ -373,7 +373,7 @@ function polynomialPlot(p) {
   const x = (u) => 8 + (w - 16) * u;
   const path = values.map((v, i) => `${i ? "L" : "M"}${x(i / count).toFixed(1)} ${y(v).toFixed(1)}`).join("");
   const polygon = p.bernstein.map((b, i) => `${x(i / n).toFixed(1)},${y(b).toFixed(1)}`).join(" ");
-  const title = `${p.shape} \u2018${p.object}\u2019: degree ${n}, ` + (p.roots.length ? `roots at t = ${p.roots.map(number).join(", ")}` : "no real root on the ray");
+  const title = `${p.shape} \u2018${p.object}\u2019: degree ${n}, ` + (p.roots.length ? `roots at t = ${p.roots.map(number).join(", ")}` : "no real root in its bounds");
   const svg = element(
     "svg:svg",
     { viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": title },
@@ -1255,7 +1255,37 @@ function sampleTable(data, choose) {
   )));
 }
 
+// apps/viewer/page/camera_block.ts
+var ROUNDING = 1e-12;
+var FAR = 1e5;
+var vector = (v) => `(${v.join(", ")})`;
+function isPlain({ eye, look, right, up, aspect }, distance) {
+  const l = unit(look), r = unit(right), u = unit(up);
+  return [dot(l, r), dot(l, u), dot(r, u), norm(right) / norm(up) / aspect - 1].every((x) => Math.abs(x) < ROUNDING) && dot(cross(l, u), r) > 0 && norm(eye) < FAR * distance;
+}
+function lensLines(lens) {
+  if (!lens) return [];
+  return [
+    `lens_radius = ${lens.radius}`,
+    `focus_distance = ${lens.focus_distance}`,
+    ...lens.blades ? [`blades = ${lens.blades}`, `blade_turn_rad = ${lens.turn}`] : []
+  ];
+}
+function blockOf(frame) {
+  const { eye, look, right, up, parallel, aspect, lens } = frame, plain = isPlain(frame, frame.distance);
+  const kind = parallel ? plain ? "orthographic" : "sheared_orthographic" : plain ? "perspective" : "sheared";
+  const size = parallel ? `height = ${norm(up)}` : `fov_deg = ${2 * Math.atan2(norm(up) / 2, norm(look)) * 180 / Math.PI}`;
+  const way = plain || parallel ? "direction" : "look";
+  const lines = [`eye = ${vector(eye)}`, `${way} = ${vector(look)}`, ...plain ? [`up = ${vector(unit(up))}`, size] : [`right = ${vector(right)}`, `up = ${vector(up)}`], `aspect = ${aspect}`, ...lensLines(lens)];
+  return `${kind}_camera "view" {
+${lines.map((line) => `    ${line}
+`).join("")}}
+`;
+}
+
 // apps/viewer/page/camera.ts
+var STEEPEST = 1.5;
+var LEAST = 1e-6;
 var ViewCamera = class _ViewCamera {
   eye;
   look;
@@ -1263,11 +1293,21 @@ var ViewCamera = class _ViewCamera {
   up;
   parallel;
   aspect;
+  lens;
   distance;
   world;
+  given;
   constructor(given, up) {
-    ({ eye: this.eye, look: this.look, right: this.right, up: this.up, parallel: this.parallel } = given);
-    this.aspect = norm(given.right) / norm(given.up);
+    ({
+      eye: this.eye,
+      look: this.look,
+      right: this.right,
+      up: this.up,
+      parallel: this.parallel,
+      aspect: this.aspect,
+      lens: this.lens
+    } = given);
+    this.given = given;
     this.world = up === "z" ? [0, 0, 1] : [0, 1, 0];
     this.distance = given.distance || 0.5 * norm(this.eye) + 1;
   }
@@ -1284,13 +1324,16 @@ var ViewCamera = class _ViewCamera {
     const by = (v) => add(add(scaled(c, v), scaled(s, cross(k, v))), scaled((1 - c) * dot(k, v), k));
     for (const key of ["look", "right", "up"]) this[key] = by(this[key]);
   }
-  // Turns around the point at `distance`; the pole is not crossed.
+  // Turns around the point at `distance`; the pole is not crossed. Pictures may be mirrored: `dx` turns towards their
+  // right side, `dy` raises the eye.
   orbit(dx, dy) {
     const center = add(this.eye, scaled(this.distance, unit(this.look)));
-    this.turn(this.world, -dx);
-    const rise = Math.asin(Math.max(-1, Math.min(1, dot(unit(this.look), this.world))));
-    const to = Math.max(-1.5, Math.min(1.5, rise - dy));
-    this.turn(this.right, to - rise);
+    const side = dot(cross(unit(this.look), this.world), unit(this.right));
+    const mirrored = (Math.abs(side) > LEAST ? side : dot(cross(this.look, this.up), this.right)) < 0;
+    this.turn(this.world, mirrored ? dx : -dx);
+    const look = unit(this.look), rise = Math.asin(Math.max(-1, Math.min(1, dot(look, this.world))));
+    const to = Math.max(-STEEPEST, Math.min(STEEPEST, rise - dy)), level = cross(look, this.world);
+    this.turn(norm(level) > LEAST ? level : cross(look, this.up), to - rise);
     this.eye = sub(center, scaled(this.distance, unit(this.look)));
   }
   walk(right, up, forward) {
@@ -1304,16 +1347,9 @@ var ViewCamera = class _ViewCamera {
     } else this.eye = add(this.eye, scaled(this.distance * (1 - factor), unit(this.look)));
     this.distance *= factor;
   }
+  /** The view for a scene file. */
   block() {
-    const v = (a) => `(${a.map((x) => String(Number(x.toPrecision(9)))).join(", ")})`;
-    const size = this.parallel ? `height = ${Number(norm(this.up).toPrecision(9))}` : `fov_deg = ${Number((2 * Math.atan2(norm(this.up) / 2, norm(this.look)) * 180 / Math.PI).toPrecision(9))}`;
-    return `${this.parallel ? "orthographic" : "perspective"}_camera "view" {
-    eye = ${v(this.eye)}
-    look_at = ${v(add(this.eye, scaled(this.distance || 1, unit(this.look))))}
-    up = ${v(unit(this.up))}
-    ${size}
-}
-`;
+    return this.isAt(this.given) && this.given.block || blockOf(this);
   }
 };
 
@@ -1422,10 +1458,10 @@ var LightFields = class {
     for (const { key, fields } of this.vectors) {
       const i = fields.indexOf(field);
       if (i < 0) continue;
-      const vector = [...this.values[key]];
-      vector[i] = x;
-      values[key] = vector;
-      good &&= key === "color" ? x >= 0 : key !== "direction" || vector.some((c) => c !== 0);
+      const vector2 = [...this.values[key]];
+      vector2[i] = x;
+      values[key] = vector2;
+      good &&= key === "color" ? x >= 0 : key !== "direction" || vector2.some((c) => c !== 0);
     }
     if (good) field.removeAttribute("aria-invalid");
     else field.setAttribute("aria-invalid", "true");
@@ -1611,16 +1647,32 @@ var MOVING = [
   { name: "coarser", what: "the same renderer at its depth: as many pixels as 20 pictures a second allow" },
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
+var NUMBERS = ["samples", "depth", "exposure"];
+var LIMITS = {
+  samples: { label: "samples", min: 1, max: 1024, step: 1, whole: true },
+  depth: { label: "depth", min: 0, max: 100, step: 1, whole: true },
+  exposure: { label: "exposure", min: -64, max: 64, step: 0.5, whole: false }
+};
+var isNumber = (key) => NUMBERS.includes(key);
+function fault({ label, min, max, whole }, field) {
+  const x = Number(field.value);
+  if (!field.value && !field.validity.badInput) return "";
+  if (field.value && x >= min && x <= max && (!whole || Number.isInteger(x))) return "";
+  return `${label} must be a ${whole ? "whole " : ""}number from ${min} to ${max}`;
+}
 var Controls = class {
-  /** `changed` gets the previous choices, unless it continues the previous change. */
-  constructor(changed, blocks) {
+  /** `changed` gets the previous choices, unless it continues the previous change; `refused` why numbers are not used. */
+  constructor(changed, refused, blocks) {
     this.changed = changed;
+    this.refused = refused;
     this.lights = new LightList({ changed: (which, mark) => this.tell(which, mark), blocks });
   }
   form = element("form", { class: "controls", "aria-label": "Settings", submit: (e) => e.preventDefault() });
   lights;
   fields = /* @__PURE__ */ new Map();
   usual = /* @__PURE__ */ new Map();
+  numbers = /* @__PURE__ */ new Map();
+  // the last valid ones
   wishes = /* @__PURE__ */ new Set();
   // chosen numbers; others have their defaults
   reasons = /* @__PURE__ */ new Map();
@@ -1630,7 +1682,7 @@ var Controls = class {
     return this.fields.get(key)?.value ?? "";
   }
   number(key) {
-    return Number(this.fields.get(key)?.value);
+    return this.numbers.get(key) ?? 0;
   }
   /** Undefined if nothing was chosen. */
   wished(key) {
@@ -1642,9 +1694,26 @@ var Controls = class {
     if (!this.wishes.has(key)) this.set(key, String(value));
   }
   set(key, value) {
-    const field = this.fields.get(key);
-    if (field) field.value = value;
+    this.show(key, value);
     this.last = this.settings();
+  }
+  show(key, value) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    field.value = value;
+    if (!isNumber(key)) return;
+    this.numbers.set(key, Number(value));
+    this.check();
+  }
+  // Marks the numbers that are not used.
+  check() {
+    const reasons = NUMBERS.flatMap((key) => {
+      const field = this.fields.get(key), reason = field instanceof HTMLInputElement ? fault(LIMITS[key], field) : "";
+      if (reason) field?.setAttribute("aria-invalid", "true");
+      else field?.removeAttribute("aria-invalid");
+      return reason ? [reason] : [];
+    });
+    this.refused(reasons.join("\n"));
   }
   /** As a user would. */
   choose(key, value) {
@@ -1667,14 +1736,14 @@ var Controls = class {
     field.setAttribute("aria-describedby", reason.id);
   }
   settings() {
-    const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
+    const values = new Map([...this.fields].map(([key, field]) => [key, isNumber(key) ? String(this.number(key)) : field.value]));
     return { values, wishes: new Set(this.wishes), lights: this.lights.state() };
   }
   /** Keeps choices that the scene does not have. */
   restore({ values, wishes, lights }) {
     for (const [key, field] of this.fields) {
       const now = field.value;
-      field.value = values.get(key) ?? now;
+      this.show(key, values.get(key) ?? now);
       if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = now;
     }
     this.wishes.clear();
@@ -1694,19 +1763,21 @@ var Controls = class {
   // An emptied field gets its default again.
   typed(key) {
     const field = this.fields.get(key);
-    if (!field) return;
-    if (field.value) this.wishes.add(key);
-    else {
-      this.wishes.delete(key);
-      field.value = String(this.usual.get(key));
-    }
+    if (!(field instanceof HTMLInputElement)) return;
+    const empty = !field.value && !field.validity.badInput;
+    if (empty) field.value = String(this.usual.get(key));
+    this.check();
+    if (field.hasAttribute("aria-invalid")) return;
+    if (empty) this.wishes.delete(key);
+    else this.wishes.add(key);
+    this.numbers.set(key, Number(field.value));
     this.tell(key);
   }
   /** Keeps choices that still exist. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
     const place = this.lights.place();
-    const chosen = new Map([...this.fields].map(([key, field2]) => [key, field2.value]));
+    const chosen = this.settings().values;
     this.form.replaceChildren();
     const add2 = (key, label, field2, value) => {
       const kept = field2 instanceof HTMLSelectElement || this.wishes.has(key);
@@ -1714,27 +1785,38 @@ var Controls = class {
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.value = value;
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.selectedIndex = 0;
       this.fields.set(key, field2);
+      if (isNumber(key)) this.numbers.set(key, Number(field2.value));
       this.form.append(element("label", {}, label, field2));
     };
     const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.tell(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
-    const field = (key, label, value, min, max, step = 1) => {
+    const field = (key, value) => {
+      const { label, min, max, step } = LIMITS[key];
       this.usual.set(key, value);
       add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.typed(key) }), String(value));
     };
     menu("camera", "camera", scene.cameras.map((c, i) => ({ name: c.name || `camera ${i + 1}`, value: String(i) })), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");
-    menu("accelerator", "accelerator", scene.accelerators, scene.accelerator);
+    const known = scene.accelerators.some((a) => a.name === scene.accelerator);
+    menu("accelerator", "accelerator", [...known ? [] : [{ name: scene.accelerator }], ...scene.accelerators], scene.accelerator);
     this.lights.fill(scene.lights);
     this.form.append(this.lights.element);
     menu("environment", "environment", [{ name: "of the scene", value: "" }, ...scene.environments], "");
     menu("layer", "layer", [{ name: "colours", value: "", what: "the picture" }, ...scene.layers], "");
     menu("moving", "moving", MOVING, "steady");
-    field("samples", "samples", 4, 1, 1024);
-    field("depth", "depth", scene.depth, 0, 100);
-    field("exposure", "exposure", 0, -16, 16, 0.5);
+    field("samples", 4);
+    field("depth", scene.depth);
+    field("exposure", 0);
     menu("curve", "tone curve", scene.curves.map((name) => ({ name })), "none");
     menu("steps", "steps of", scene.steps.split(", ").map((name) => ({ name })), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
+    this.lights.comeBack(place);
+    this.check();
+    this.last = this.settings();
+  }
+  /** Shows other lights. */
+  setLights(lights) {
+    const place = this.lights.place();
+    this.lights.fill(lights);
     this.lights.comeBack(place);
     this.last = this.settings();
   }
@@ -1797,14 +1879,24 @@ function listen(image, target) {
   }, { passive: false });
   image.addEventListener("keydown", (e) => {
     if (e.key === "Enter") return target.explain(0.5, 0.5);
-    if (e.key === "Escape") return target.stop();
     const held = e.ctrlKey || e.metaKey;
-    if (e.key === "z" && held) return target.undo();
     const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
     const change = (e.shiftKey ? WITH_SHIFT[key] : void 0) ?? KEYS[key];
     if (!change || held || e.altKey) return;
     e.preventDefault();
     target.move(change, true);
+  });
+}
+function listenAnywhere(target) {
+  let typed = null;
+  document.addEventListener("input", (e) => typed = e.target);
+  for (const end of ["change", "focusout"]) document.addEventListener(end, () => typed = null);
+  document.addEventListener("keydown", (e) => {
+    if (typed !== null && typed === e.target) return;
+    if (e.key === "Escape") return target.stop();
+    if (e.key.toLowerCase() !== "z" || !(e.ctrlKey || e.metaKey) || e.shiftKey || e.altKey) return;
+    e.preventDefault();
+    target.undo();
   });
 }
 
@@ -1823,6 +1915,9 @@ var FrameLink = class {
   socket;
   open = false;
   since = 0;
+  get connected() {
+    return this.open;
+  }
   /** False if the server is not connected. */
   send(message) {
     if (!this.open) return false;
@@ -1974,7 +2069,7 @@ var Pace = class {
   /** Width and depth of the next picture. Without known times an eighth as wide, and two generations. */
   next(limits) {
     this.width = clamped(this.width ?? limits.full / 8, 48, limits.full / 2);
-    this.depth = Math.min(this.depth ?? 2, limits.depth);
+    this.depth = Math.max(0, Math.min(this.depth ?? 2, limits.depth));
     return { width: Math.round(this.width), depth: limits.deepens ? this.depth : limits.depth };
   }
   /** `cost`: milliseconds since the previous picture, or since the request; `depth`: that of the picture. */
@@ -2058,11 +2153,14 @@ var PixelChoice = class {
 };
 
 // apps/viewer/page/viewer.ts
-var WIDEST = 4096;
+var MOST_SIDE = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
 var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 var OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that `alhazen view` printed.";
+var SILENT = "The server does not answer: waiting for it.";
+var BUSY = "The server is busy with other pages: it has 8 clients at most. Close one of them.";
+var BUSY_PATIENCE = 6e3;
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
   // Tests read these, too.
@@ -2075,7 +2173,11 @@ var Viewer = class {
     "aria-describedby": "help"
   });
   scale = element("div", { class: "scale", hidden: true });
-  controls = new Controls((key, before) => this.chosen(key, before), (changes) => this.lightBlocks(changes));
+  controls = new Controls(
+    (key, before) => this.chosen(key, before),
+    (reasons) => this.messages.say("choice", reasons),
+    (changes) => this.lightBlocks(changes)
+  );
   scene;
   camera;
   frames = 0;
@@ -2106,6 +2208,9 @@ var Viewer = class {
   explaining;
   halted = false;
   // by Stop, until something changes
+  busy = false;
+  // the server refused this page a place
+  shownAccelerator;
   described = "";
   // of the displayed picture
   shownAt = 0;
@@ -2128,10 +2233,17 @@ var Viewer = class {
       lost: () => {
         this.asked.clear();
         this.work.show(void 0);
-        this.messages.say("server", "The server does not answer: waiting for it.");
+        void this.sayWhyLost();
       },
       refused: () => this.messages.say("server", this.scene ? OTHER_SERVER : NO_KEY)
     });
+  }
+  // A server without a place refuses this page, too.
+  async sayWhyLost() {
+    if (!this.busy) this.messages.say("server", SILENT);
+    const answer = await this.post("/state", {});
+    this.busy = answer?.status === 503;
+    if (!this.link.connected) this.messages.say("server", this.busy ? BUSY : SILENT);
   }
   build() {
     const block = this.block;
@@ -2157,18 +2269,39 @@ var Viewer = class {
       element("section", { "aria-label": "Settings and actions" }, this.controls.form, buttons, block, this.pixel.element)
     );
     listen(this.image, this);
+    listenAnywhere(this);
   }
   // Null if the server does not respond, which the link reports.
-  ask(path, wish = {}) {
+  post(path, wish) {
     return fetch(path, {
       method: "POST",
       body: JSON.stringify({ ...wish, client: this.client }),
       headers: { Authorization: `Bearer ${this.token}` }
     }).catch(() => null);
   }
+  // Waits for a place among the clients of the server.
+  async ask(path, wish = {}, goesOn = () => true) {
+    const begin = performance.now();
+    for (; ; ) {
+      const answer = await this.post(path, wish);
+      if (answer?.status !== 503 || performance.now() - begin > BUSY_PATIENCE || !goesOn()) return answer;
+      await new Promise((go) => setTimeout(go, 300));
+    }
+  }
+  // The response to work that frames requested earlier may end by arriving after it; null if the page gave it up.
+  async askUndisturbed(path, wish, own) {
+    let answer = null;
+    const goesOn = () => this.held === own;
+    for (let tries = 0; tries < 3 && goesOn() && (answer?.status ?? 204) === 204; ++tries) {
+      answer = await this.ask(path, wish, goesOn);
+    }
+    return goesOn() ? answer : null;
+  }
   async lightBlocks(lights) {
-    const answer = await this.ask("/blocks", { lights });
+    const answer = await this.ask("/blocks", { lights, of: this.chosenCamera() });
     if (!answer) return "// The server does not answer.\n";
+    if (answer.status === 503) return `// ${BUSY}
+`;
     const { text, error } = await answer.json();
     return text ?? `// ${error}
 `;
@@ -2191,13 +2324,14 @@ var Viewer = class {
       this.changed();
     }
   }
-  // The file has changed: finds the chosen camera by name, and moves a view that was still that camera's.
+  // The file has changed: finds the chosen camera, by name if it has one, and moves a view that was still that camera's.
   refill(before, scene) {
-    const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
-    const same = scene.cameras.findIndex((c) => c.name === old.name);
+    const chosen = this.chosenCamera(), old = before.cameras[chosen];
+    const same = scene.cameras[chosen]?.name === old.name || !old.name ? -1 : scene.cameras.findIndex((c) => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
     this.fill(scene);
     this.controls.set("camera", String(index));
+    this.fitLights(scene);
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
   }
   fill(scene) {
@@ -2210,6 +2344,16 @@ var Viewer = class {
     const renderer = this.renders(this.controls.get("renderer"));
     this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
     this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
+    this.fitLights(scene);
+  }
+  // A light that was added to the scene belongs to the camera, and may be left out by renderers that follow light.
+  fitLights(scene) {
+    const added = scene.added_light;
+    if (!added) return;
+    const follows = this.renders(this.controls.get("renderer"))?.follows_light;
+    const without = follows && (!added.follows_light || this.controls.get("environment") !== "");
+    const own = this.frame().headlight, lights = scene.lights.filter((l) => !without || l.name !== added.name);
+    this.controls.setLights(lights.map((l) => l.name === added.name && own ? own : l));
   }
   see(camera) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
@@ -2219,20 +2363,30 @@ var Viewer = class {
     if (before) this.remember(before);
     if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
     if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if ((key === "environment" || key === "camera") && this.scene) this.fitLights(this.scene);
     if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
   // ---- Requests.
+  chosenCamera() {
+    return Number(this.controls.get("camera"));
+  }
+  // The camera of the scene whose picture is shown.
+  frame() {
+    return this.scene.cameras[this.chosenCamera()];
+  }
+  // The width of the whole picture; one with a side that is too large is made smaller.
   full() {
-    return Math.max(64, Math.min(this.scene?.width ?? 0, WIDEST));
+    const { width, height } = this.frame();
+    return Math.max(1, Math.floor(Math.min(width, MOST_SIDE, MOST_SIDE * width / height)));
   }
   renders(name) {
     return this.scene?.renderers.find((r) => r.name === name);
   }
   wish(camera, width) {
-    const { eye, look, right, up, parallel } = camera, controls = this.controls;
+    const { eye, look, right, up, parallel, aspect, lens } = camera, controls = this.controls;
     return {
-      camera: { eye, look, right, up, parallel },
+      camera: { eye, look, right, up, parallel, aspect, lens, of: this.chosenCamera() },
       width,
       height: this.heightFor(width),
       renderer: controls.get("renderer"),
@@ -2276,27 +2430,32 @@ var Viewer = class {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) {
+    if (this.held) {
       this.explaining = this.held = void 0;
       this.status.textContent = this.described;
       this.spoken.textContent = "";
     }
+    this.messages.say("explain", "");
     this.request();
   }
   // The description of the picture.
   name() {
-    const scene = this.scene, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
+    const scene = this.scene, camera = this.frame(), width = this.full();
     const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
     if (this.image.getAttribute("aria-label") !== name) this.image.setAttribute("aria-label", name);
     this.pixel.fit(width, this.heightFor(width));
   }
+  widthOf(part) {
+    return Math.max(1, Math.round(this.full() * part));
+  }
   heightFor(width) {
-    return Math.max(1, Math.round(width / (this.camera?.aspect ?? 1)));
+    const frame = this.frame();
+    return Math.min(MOST_SIDE, Math.max(1, Math.round(width * frame.height / frame.width)));
   }
   request() {
     if (!this.camera || this.held || this.halted || this.done()) return;
     const [part, samples] = this.levels()[this.level], moving = this.level === 0;
-    const wish = moving ? this.movingWish(this.camera) : { ...this.wish(this.camera, Math.round(this.full() * part)), samples };
+    const wish = moving ? this.movingWish(this.camera) : { ...this.wish(this.camera, this.widthOf(part)), samples };
     const id = ++this.lastId;
     this.asked.set(id, { id, generation: this.generation, level: this.level, wish, begin: performance.now() });
     this.link.send({ ...wish, id, moving, client: this.client, raw: wish.width * wish.height <= MOST_RAW });
@@ -2327,7 +2486,7 @@ var Viewer = class {
     const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
     do
       ++this.level;
-    while (this.level < 3 && Math.round(this.levels()[this.level][0] * this.full()) < least);
+    while (this.level < 3 && this.widthOf(this.levels()[this.level][0]) < least);
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
@@ -2342,8 +2501,8 @@ var Viewer = class {
     this.image.height = height;
     if (picture instanceof ImageData) this.g.putImageData(picture, 0, 0);
     else this.g.drawImage(picture, 0, 0);
-    const aspect = this.camera?.aspect ?? width / height;
-    document.documentElement.style.setProperty("--aspect", String(aspect));
+    const frame = this.frame();
+    document.documentElement.style.setProperty("--aspect", String(frame.width / frame.height));
     this.firstPicture ??= performance.now();
     ++this.frames;
   }
@@ -2355,6 +2514,7 @@ var Viewer = class {
       this.movingShown = [...this.movingShown.filter((t) => t > now - 1e3), now];
     }
     this.shownAt = now;
+    this.shownAccelerator = asked.wish.accelerator;
     const span = now - this.movingShown[0], rate = span > 0 ? 1e3 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
     this.status.textContent = this.described = statusText(
@@ -2382,9 +2542,10 @@ var Viewer = class {
     this.seeChosen();
   }
   seeChosen() {
-    if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
+    if (this.scene) this.see(this.frame());
   }
   remember(settings = this.controls.settings()) {
+    this.messages.say("save", "");
     if (this.camera) this.undone.push({ camera: this.camera.copy(), settings });
     if (this.undone.length > 100) this.undone.shift();
   }
@@ -2402,17 +2563,17 @@ var Viewer = class {
     this.explaining = this.held = void 0;
     this.halted = true;
     this.asked.clear();
-    if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
-    void this.ask("/stop");
-    this.spoken.textContent = "Stopped";
-    this.messages.say("explain", "");
+    if (this.scene) this.controls.set("accelerator", this.shownAccelerator ?? this.scene.accelerator);
+    const sent = this.link.send({ stop: true, client: this.client });
+    this.spoken.textContent = sent ? "Stopped" : "";
+    for (const topic of ["explain", "save"]) this.messages.say(topic, "");
     this.status.textContent = this.described;
   }
-  // Requests nothing until the work is done.
+  // Requests no frames until the work is done, or given up for a change.
   async hold(work) {
     const own = this.held = {};
     try {
-      await work();
+      await work(own);
     } finally {
       if (this.held === own) {
         this.held = void 0;
@@ -2421,11 +2582,14 @@ var Viewer = class {
     }
   }
   save() {
-    return this.hold(async () => {
+    this.messages.say("save", "");
+    return this.hold(async (own) => {
       if (!this.camera) return;
       const wish = { ...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), png: true };
-      const answer = await this.ask("/frame", wish);
-      if (answer?.status !== 200) return;
+      const answer = await this.askUndisturbed("/frame", wish, own);
+      if (this.held !== own) return this.messages.say("save", "The picture was not saved: it was ended.");
+      if (!answer) return;
+      if (answer.status !== 200) return this.messages.say("save", `The picture was not saved: ${await reasonOf(answer)}`);
       const link = element("a", { href: URL.createObjectURL(await answer.blob()), download: "view.png" });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
@@ -2446,19 +2610,16 @@ var Viewer = class {
     const { x, y } = wish, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
-    void this.hold(async () => {
-      let answer = null;
-      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
-        answer = await this.ask("/explain", { ...wish, sample, steps: this.controls.get("steps") });
-      }
+    void this.hold(async (held) => {
+      const answer = await this.askUndisturbed("/explain", { ...wish, sample, steps: this.controls.get("steps") }, held);
       if (this.explaining !== own) return;
       this.explaining = void 0;
       this.status.textContent = this.described;
       this.spoken.textContent = answer?.status === 204 ? "The explanation was ended" : "";
       if (!answer || answer.status === 204) return;
-      const data = await answer.json();
-      this.messages.say("explain", answer.ok ? "" : data.error ?? "");
+      this.messages.say("explain", answer.ok ? "" : await reasonOf(answer));
       if (!answer.ok) return;
+      const data = await answer.json();
       const root = document.getElementById("explanation");
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
@@ -2469,6 +2630,11 @@ var Viewer = class {
     });
   }
 };
+async function reasonOf(answer) {
+  if (answer.status === 204) return "it was ended";
+  const { error } = await answer.json().catch(() => ({}));
+  return error ?? (answer.status === 503 ? BUSY : `${answer.status} ${answer.statusText}`);
+}
 
 // apps/viewer/page/view.ts
 globalThis.viewer = new Viewer();

@@ -191,25 +191,6 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     return camera;
 }
 
-/// A light at the eye, so that visible points are not in shadow. Without highlights: it would be a
-/// white spot on any glass that faces the eye. Of an orthographic camera it comes from infinity:
-/// what lies behind the picture plane shades what is seen.
-Light headlight(const Camera& camera) {
-    const auto at = [](const Vec3& eye) -> Light {
-        return PointLight{
-            .position = eye, .color = kHeadlight, .ambient = kHeadlightAmbient, .glints = false};
-    };
-    return std::visit(Overloaded{[&](const PerspectiveCamera& c) { return at(c.eye); },
-                                 [&](const WideCamera& c) { return at(c.eye); },
-                                 [](const OrthographicCamera& c) -> Light {
-                                     return DirectionalLight{.to_light = normalize(-c.direction),
-                                                             .color = kHeadlight,
-                                                             .ambient = kHeadlightAmbient,
-                                                             .glints = false};
-                                 }},
-                      camera);
-}
-
 bool shows_without_light(const Scene& scene) {
     return std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
         return m.metallic_roughness && m.metallic_roughness->unlit;
@@ -296,6 +277,22 @@ bool glows(const Scene& scene, double radiance) {
 bool lacks_light(const SceneDescription& description, const Scene& scene) {
     return scene.lights.empty() && description.conventions.importing.headlight &&
            !shows_without_light(scene);
+}
+
+Light headlight(const Camera& camera) {
+    const auto at = [](const Vec3& eye) -> Light {
+        return PointLight{
+            .position = eye, .color = kHeadlight, .ambient = kHeadlightAmbient, .glints = false};
+    };
+    return std::visit(Overloaded{[&](const PerspectiveCamera& c) { return at(c.eye); },
+                                 [&](const WideCamera& c) { return at(c.eye); },
+                                 [](const OrthographicCamera& c) -> Light {
+                                     return DirectionalLight{.to_light = normalize(-c.direction),
+                                                             .color = kHeadlight,
+                                                             .ambient = kHeadlightAmbient,
+                                                             .glints = false};
+                                 }},
+                      camera);
 }
 
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,

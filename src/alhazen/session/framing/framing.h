@@ -48,6 +48,11 @@ struct FramingOptions {
     bool nothing_around = false;  ///< neither lights nor surroundings are added
 };
 
+/// The light that `complete_view` adds: at the eye, so that visible points are not in shadow.
+/// Without highlights: it would be a white spot on any glass that faces the eye. Of an orthographic
+/// camera it comes from infinity: what lies behind the picture plane shades what is seen.
+[[nodiscard]] Light headlight(const Camera& camera);
+
 /// True if a material of the scene emits light, of more than `radiance` in a channel of its factor.
 [[nodiscard]] bool glows(const Scene& scene, double radiance = 0);
 

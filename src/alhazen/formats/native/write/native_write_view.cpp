@@ -274,17 +274,15 @@ void write_native_conventions(NativeWriteContext& context) {
     if (!block.empty()) context.append(block);
 }
 
-void write_native_cameras(NativeWriteContext& context) {
-    for (const CameraDescription& camera : context.scene.cameras) {
-        NativeBlockText block =
-            std::visit([&](const auto& c) { return block_of(camera.name, c); }, camera.camera);
-        block.add("aspect", native_value(camera.aspect));
-        if (!camera.keys.empty()) block.add("motion", native_value(camera.keys));
-        context.append(block);
-    }
-}
-
 namespace {
+
+NativeBlockText camera_block(const CameraDescription& camera) {
+    NativeBlockText block =
+        std::visit([&](const auto& c) { return block_of(camera.name, c); }, camera.camera);
+    block.add("aspect", native_value(camera.aspect));
+    if (!camera.keys.empty()) block.add("motion", native_value(camera.keys));
+    return block;
+}
 
 template <class NameOf>
 NativeBlockText light_block(const LightDescription& light, const NameOf& name_of) {
@@ -300,6 +298,12 @@ NativeBlockText light_block(const LightDescription& light, const NameOf& name_of
 
 }  // namespace
 
+void write_native_cameras(NativeWriteContext& context) {
+    for (const CameraDescription& camera : context.scene.cameras) {
+        context.append(camera_block(camera));
+    }
+}
+
 void write_native_lights(NativeWriteContext& context) {
     for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
         // Writes the file of a profile beside the scene.
@@ -308,6 +312,10 @@ void write_native_lights(NativeWriteContext& context) {
             return context.write_file("light_" + std::to_string(i) + ".ies", std::as_bytes(text));
         }));
     }
+}
+
+std::string native_camera_text(const CameraDescription& camera) {
+    return camera_block(camera).text(0) + '\n';
 }
 
 std::string native_light_text(const LightDescription& light) {

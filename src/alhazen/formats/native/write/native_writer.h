@@ -31,6 +31,9 @@ using NativeFileSink =
                                             const std::string& folder,
                                             const NativeFileSink& write_beside);
 
+/// The block of a single camera. Throws Error (Scene) for non-finite numbers.
+[[nodiscard]] std::string native_camera_text(const CameraDescription& camera);
+
 /// The block of a single light; a profile keeps the name of its file. Throws Error (Scene) for
 /// non-finite numbers.
 [[nodiscard]] std::string native_light_text(const LightDescription& light);
