@@ -50,6 +50,7 @@ struct RenderArguments {
     RenderOptions render;
     std::string environment, tonemap;
     ToneMapping tone;
+    bool names_tone = false;  ///< one of its options is given, whatever its value
 };
 
 Encoding parse_encoding(const std::string& name) {
@@ -123,7 +124,7 @@ void check_effects(const RenderArguments& args) {
     need(!args.no_counts || !args.stats.empty(), "--no-counts needs --stats");
     need(args.bits == 8 || suffix == ".png", "--bits 16 is for .png: no other picture has them");
     need(!args.full_float || suffix == ".exr", "--full-float is for .exr");
-    need(tone_mapping(args).changes_nothing() || suffix == ".png" || jpeg,
+    need(!args.names_tone || suffix == ".png" || jpeg,
          "--tonemap, --exposure and --white-balance are for .png and .jpg: other pictures hold "
          "linear values");
     need(args.encoding.empty() || suffix == ".png" || jpeg,
@@ -468,7 +469,12 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_flag("--spectral", args->spectral,
                       "Light by wavelengths instead of red, green and blue: glass disperses");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
-    command->callback([args, &exit_status] { exit_status = run(*args); });
+    command->callback([args, command, &exit_status] {
+        for (const char* option : {"--tonemap", "--exposure", "--white-balance"}) {
+            args->names_tone = args->names_tone || command->count(option) > 0;
+        }
+        exit_status = run(*args);
+    });
 }
 
 }  // namespace alhazen::cli

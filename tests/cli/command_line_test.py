@@ -115,6 +115,8 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--full-float"],
                           ["render", self.scene, "-o", self.path("out.exr"), "--encoding", "srgb"],
                           ["render", self.scene, "-o", self.path("out.exr"), "--exposure", "1"],
+                          ["render", self.scene, "-o", self.path("out.pfm"), "--exposure", "0"],
+                          ["render", self.scene, "-o", self.path("out.exr"), "--tonemap", "none"],
                           ["render", self.scene, "-o", picture, "--time", "nan"],
                           ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--tolerance", "nan"],
                           ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--budget", "nan"],

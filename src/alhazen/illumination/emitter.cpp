@@ -139,17 +139,19 @@ struct SeenSphere {
     double squared;  ///< distance to the centre
     double cap = 0;  ///< from outside: 1 - cosine of the half angle of the cone
     bool inside;
+    bool through;  ///< from outside: its inner side is seen too
 
     SeenSphere(const Emitter& e, const Vec3& world_from)
         : from(inverse(e.world_from_own.linear) * (world_from - e.world_from_own.translation)),
           squared(length_squared(from)),
-          inside(!(squared > 1.0 + kOnSphere)) {
+          inside(!(squared > 1.0 + kOnSphere)),
+          through(!inside && e.two_sided && e.unseen) {
         const double sine2 = 1.0 / squared;
         if (!inside) cap = sine2 / (1.0 + std::sqrt(1.0 - sine2));
     }
-    /// Density by solid angle in the own frame.
+    /// Density by solid angle in the own frame, of each side that is seen.
     [[nodiscard]] double density() const {
-        return inside ? 1.0 / (4.0 * kPi) : 1.0 / (2.0 * kPi * cap);
+        return inside ? 1.0 / (4.0 * kPi) : (through ? 0.5 : 1.0) / (2.0 * kPi * cap);
     }
 };
 
@@ -159,8 +161,10 @@ double change_of_angle(const Emitter& e, double length) {
     return length * length * length / std::abs(determinant(e.world_from_own.linear));
 }
 
-EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, const Vec2& u) {
+EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, Vec2 u) {
     const SeenSphere seen(e, world_from);
+    const bool far_side = seen.through && u.x < 0.5;
+    if (seen.through) u.x = far_side ? 2.0 * u.x : 2.0 * u.x - 1.0;
     Vec3 own;
     double t = 0.0;
     if (seen.inside) {
@@ -177,7 +181,8 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, const Vec2
         const Vec3 axis = (-1.0 / d) * seen.from, x = perpendicular(axis), y = cross(axis, x);
         own = normalize(cosine * axis + (across * p.x) * x + (across * p.y) * y);
         const double sine2 = height * (2.0 - height);
-        t = d * cosine - std::sqrt(std::max(0.0, 1.0 - seen.squared * sine2));
+        const double half_chord = std::sqrt(std::max(0.0, 1.0 - seen.squared * sine2));
+        t = d * cosine + (far_side ? half_chord : -half_chord);
     }
     const Vec3 direction = e.world_from_own.linear * own;
     const double scale = length(direction);
@@ -187,7 +192,7 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, const Vec2
 double density_of_sphere(const Emitter& e, const Vec3& world_from, const EmitterHit& hit) {
     const SeenSphere seen(e, world_from);
     const bool from_behind = dot(hit.direction, hit.normal) > 0.0;
-    if (from_behind != seen.inside) return 0.0;
+    if (from_behind != seen.inside && !seen.through) return 0.0;
     const Vec3 own = inverse(e.world_from_own.linear) * hit.direction;
     const double scale = 1.0 / length(own);
     if (seen.inside && !(hit.distance > kNearOnSphere * scale)) return 0.0;

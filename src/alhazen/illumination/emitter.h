@@ -6,6 +6,8 @@
 /// Differs: an affine image of a sphere is sampled in the cone of the sphere; the density follows
 /// from the change of solid angle, |det A| / |A d|^3 for a unit d. The density of a transformed
 /// disc or tube follows from the change of area.
+/// From outside of an unseen sphere of two sides, either of its two points in a direction of the
+/// cone is sampled, with the same probability.
 /// Conventions: densities are by solid angle at the lit point. The choice between sampling by solid
 /// angle and by area depends only on the point and the emitter, so that `density` can repeat it.
 /// Complexity: O(1); O(log n) for a polygon of n triangles. Threads: const functions may be called
@@ -58,7 +60,9 @@ struct alignas(64) Emitter {
     EmitterForm form = EmitterForm::Triangle;
     bool two_sided = false;
     bool right_angled = false;  ///< Rectangle: its edges are perpendicular
-    double area = 0;            ///< of one side; of curved forms by numerical integration
+    /// Sphere: no ray meets it, so that light of its inner side passes through the rest of it.
+    bool unseen = false;
+    double area = 0;  ///< of one side; of curved forms by numerical integration
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
     /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
     double far_squared = std::numeric_limits<double>::infinity();

@@ -67,6 +67,7 @@ void append_emitters_of_light(const AreaLight& light, std::vector<Emitter>& emit
     append_extent(light.extent, emitters);
     for (std::size_t i = first; i < emitters.size(); ++i) {
         emitters[i].two_sided = light.two_sided;
+        emitters[i].unseen = true;
         emitters[i].radiance = light.radiance;
         if (!make_ready(emitters[i])) emitters[i].area = 0.0;
     }

@@ -101,6 +101,44 @@ TEST(Light, AnOpenMeshShinesToItsOuterSideLikeThePolygon) {
     }
 }
 
+/// As a mesh of the same surface does. Light of the inner side of a seen sphere stays in it.
+TEST(Light, TubesAndUnseenSpheresOfTwoSidesGiveTheLightOfBoth) {
+    const Vec3 point{3, 2, -400};
+    const auto light = [](const LightExtent& extent, bool two_sided, bool seen) {
+        return ready_to_sample(AreaLight{.extent = extent, .two_sided = two_sided, .seen = seen});
+    };
+    const auto whole = [&](const Light& l) {
+        constexpr int kGrid = 64;
+        double sum = 0;
+        for (int i = 0; i < kGrid * kGrid; ++i) {
+            const Vec2 u{(i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid};
+            sum += sample_extent(std::get<AreaLight>(l), point, u).intensity.r;
+        }
+        return sum / (kGrid * kGrid);
+    };
+    const SphereExtent sphere{{0, 0, 0}, 0.5};
+    const TubeExtent tube{{-1, 0, 0}, {1, 0.5, 0.5}, 0.25};
+    for (const bool seen : {false, true}) {
+        for (const LightExtent& extent : {LightExtent{sphere}, LightExtent{tube}}) {
+            const bool closed = std::holds_alternative<SphereExtent>(extent);
+            const double sides = closed && seen ? 1 : 2;
+            const Light one = light(extent, false, seen), two = light(extent, true, seen);
+            const double from_one = sample(one, point, false).intensity.r;
+            EXPECT_NEAR(sample(two, point, false).intensity.r, sides * from_one, 1e-15);
+            EXPECT_NEAR(whole(one), from_one, 2e-3 * from_one) << closed << seen;
+            EXPECT_NEAR(whole(two), sides * from_one, 5e-3 * from_one) << closed << seen;
+        }
+    }
+    // Points of both sides, at their distances.
+    const auto ball = std::get<AreaLight>(light(sphere, true, false));
+    for (const double u : {0.1, 0.4, 0.6, 0.9}) {
+        const LightSample s = sample_extent(ball, point, {u, 0.3});
+        const Vec3 place = point + s.distance * s.to_light;
+        EXPECT_NEAR(length(place), 0.5, 1e-12);
+        EXPECT_EQ(dot(place, s.to_light) > 0.0, u < 0.5) << u;
+    }
+}
+
 TEST(Light, AMeshOfManyTrianglesHasTheProjectedAreaOfItsTriangles) {
     // The upper half of a sphere, from a few triangles to many.
     for (const int rings : {6, 12, 24, 48}) {

@@ -35,7 +35,8 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     if (light.infinite) {
         if (is_endless_) begin_from_infinity(start);
     } else {
-        start.media = media_.around(light.ray.origin, time);
+        start.media = light.singular_place ? media_.around(light.ray.origin, time)
+                                           : media_.beside(light.ray.origin, light.normal, time);
     }
     start.density = light.infinite ? light.place_density : light.direction_density;
     return start;

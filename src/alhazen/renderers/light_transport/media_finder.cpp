@@ -1,11 +1,13 @@
 #include "alhazen/renderers/light_transport/media_finder.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
-#include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/scene/scene_sphere.h"
 
 namespace alhazen {
@@ -30,18 +32,26 @@ MediaFinder::MediaFinder(const Scene& scene)
 }
 
 MediumStack MediaFinder::around(const Vec3& point, float time) const {
+    return found_around(point, nullptr, time);
+}
+
+MediumStack MediaFinder::beside(const Vec3& point, const Vec3& normal, float time) const {
+    return found_around(point, &normal, time);
+}
+
+MediumStack MediaFinder::found_around(const Vec3& point, const Vec3* side, float time) const {
     if (!has_volumes_ || !scene_.aggregate) return {};
-    Found found = along(kFromAfar, point, time);
+    Found found = along(kFromAfar, point, side, time);
     if (reaches_infinity_) {
-        found.all.surround(along(-kFromAfar, point, time).endless, found.endless);
+        found.all.surround(along(-kFromAfar, point, side, time).endless, found.endless);
     }
     return found.all;
 }
 
 MediumStack MediaFinder::without_end_around(const Vec3& point, float time) const {
     if (!has_volumes_ || !scene_.aggregate || !reaches_infinity_) return {};
-    MediumStack media = along(kFromAfar, point, time).endless;
-    media.surround(along(-kFromAfar, point, time).endless, media);
+    MediumStack media = along(kFromAfar, point, nullptr, time).endless;
+    media.surround(along(-kFromAfar, point, nullptr, time).endless, media);
     return media;
 }
 
@@ -60,46 +70,147 @@ bool MediaFinder::is_endless(const Hit& hit) const {
     return !scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top())).bounded();
 }
 
-MediaFinder::Found MediaFinder::along(const Vec3& direction, const Vec3& point, float time) const {
-    Found found;
-    MediumStack& media = found.all;
-    double left = way_before_all(direction, point, time);
+namespace {
+
+/// The end of a ray: at `t`, or, with a `side`, beside the surface there, on the side of that
+/// normal.
+struct WalkEnd {
+    double t = 0;
+    const Vec3* side = nullptr;
+    double resolution = 0;  ///< distance from a surface within which a point is on it
+
+    [[nodiscard]] bool is_before(const Hit& hit, const Surface& surface,
+                                 const Vec3& direction) const {
+        if (side == nullptr) return t < hit.t;
+        const double slope = dot(direction, surface.normal);
+        const double near = (2.0 * LeavingRays::margin(surface) + resolution) /
+                            std::max(std::abs(slope), kLeastSlope);
+        if (std::abs(hit.t - t) > near) return t < hit.t;
+        return (slope < 0.0) != (dot(*side, surface.normal) < 0.0);
+    }
+    static constexpr double kLeastSlope = 1e-3;
+};
+
+}  // namespace
+
+/// Crosses the boundaries along a ray, whatever other surfaces are in front of them.
+class MediaFinder::Crossings {
+  public:
+    Crossings(const MediaFinder& finder, const Ray& ray, const WalkEnd& end, float time)
+        : scene_(finder.scene_),
+          finder_(finder),
+          faces_(finder.faces_),
+          ray_(ray),
+          end_(end),
+          arrival_{false, 0.0, time, true} {}
+
+    /// Crosses the boundaries at all hits; `hits` is sorted.
+    void cross(const std::vector<Hit>& hits) {
+        for (std::size_t i = 0; i < hits.size();) {
+            here_.clear();
+            parts_.clear();
+            const std::size_t first = i++;
+            if (!add(hits[first], first_)) continue;
+            // Within this distance they coincide.
+            const double to =
+                hits[first].t + CoincidentSurfaces::reach(first_.surface, ray_.direction);
+            for (; i < hits.size() && hits[i].t <= to; ++i) add(hits[i], other_);
+            cross_all_here();
+        }
+    }
+    [[nodiscard]] const Found& found() const { return found_; }
+
+  private:
+    /// Adds the boundary at a hit. False if there is none before the end of the ray.
+    bool add(const Hit& hit, ShadingPoint& at);
+    void cross_all_here();
+    /// Crosses the surface of a solid of several media, which states them.
+    void cross_stated(const ShadingPoint& at, bool endless);
+
+    const Scene& scene_;
+    const MediaFinder& finder_;
+    CoincidentFaces faces_;
+    const Ray& ray_;
+    const WalkEnd& end_;
+    Arrival arrival_;
+    Found found_;
+    ShadingPoint first_, other_;
+    OtherFaces here_;
+    std::vector<HitParts> parts_;  ///< [face of here_]
+    MediumStack outside_;          ///< of the last solid of several media
+};
+
+bool MediaFinder::Crossings::add(const Hit& hit, ShadingPoint& at) {
+    if (!faces_.may_bound(hit)) return false;
+    set_shading_point(scene_, ray_, hit, arrival_, {}, at);
+    if (end_.is_before(hit, at.surface, ray_.direction)) return false;
+    const bool endless = finder_.reaches_infinity_ && finder_.is_endless(hit);
+    if (at.surface.media.known) {
+        cross_stated(at, endless);
+        return true;
+    }
+    const std::optional<Medium> inside = faces_.volume_behind(hit, at);
+    if (!inside) return false;
+    const HitParts parts{at.surface.part, at.surface.instance};
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        if (!(parts_[k] == parts)) continue;
+        // The edge between two pieces of a part, or one that is entered and left at once.
+        if (here_[k].entering != at.entering) {
+            here_.erase(here_.begin() + static_cast<std::ptrdiff_t>(k));
+            parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+        return true;
+    }
+    parts_.push_back(parts);
+    here_.push_back({*inside, at.entering, false, endless, false, {}});
+    return true;
+}
+
+void MediaFinder::Crossings::cross_all_here() {
+    // Volumes are left before others are entered: new ones are innermost.
+    for (const OtherFace& face : here_) {
+        if (face.entering) continue;
+        found_.all.leave(face.inside);
+        if (face.endless) found_.endless.leave(face.inside);
+    }
+    faces_.sort(here_, first_, ray_.direction, arrival_);
+    for (const OtherFace& face : here_) {
+        if (!face.entering) continue;
+        found_.all.enter(face.inside);
+        if (face.endless) found_.endless.enter(face.inside);
+    }
+}
+
+void MediaFinder::Crossings::cross_stated(const ShadingPoint& at, bool endless) {
+    const SurfaceMedia& media = at.surface.media;
+    if (!media.before) outside_ = found_.all;
+    found_.all = outside_;
+    if (endless) found_.endless = {};
+    if (!media.after) return;
+    const MaterialSample after = medium_at(scene_, at.surface, *media.after);
+    const Medium inside{part_number({at.surface.part, at.surface.instance}), after.index,
+                        after.absorption, static_cast<std::uint32_t>(*media.after)};
+    found_.all.enter(inside);
+    if (endless) found_.endless.enter(inside);
+}
+
+MediaFinder::Found MediaFinder::along(const Vec3& direction, const Vec3& point, const Vec3* side,
+                                      float time) const {
+    const double left = way_before_all(direction, point, time);
+    WalkEnd end{left, side};
     Ray ray{point - left * direction, direction};
     ray.t_max = left;
-    ShadingPoint at;
-    ScatterPoint scatter;
-    CoincidentFaces faces(faces_);
-    OtherFaces endless;
-    const auto cross_endless = [&](const Hit& hit, MediumStack& around) {
-        if (!is_endless(hit)) {
-            for (const OtherFace& other : faces.others()) {
-                if (!other.endless) continue;
-                other.entering ? around.enter(other.inside) : around.leave(other.inside);
-            }
-            return;
-        }
-        endless.clear();
-        std::copy_if(faces.others().begin(), faces.others().end(), std::back_inserter(endless),
-                     [](const OtherFace& other) { return other.endless; });
-        scatter.set(scene_, at, around, kColorChannels, false, nullptr, &endless);
-        scatter.cross(around);
-    };
-    for (int passed = 0; passed < kMaxPassedSurfaces; ++passed) {
-        Hit hit;
-        if (!scene_.aggregate->closest(ray, hit, {nullptr, kAllRays, time})) break;
-        const Arrival arrival{!media.empty(), 0.0, time, true};
-        set_shading_point(scene_, ray, hit, arrival, {}, at);
-        faces.find(at, direction, arrival, kAllRays);
-        scatter.set(scene_, at, media, kColorChannels, false, nullptr, &faces.others());
-        if (scatter.bounds_volume()) {
-            scatter.cross(media);
-            if (reaches_infinity_) cross_endless(hit, found.endless);
-        }
-        left -= hit.t;
-        if (!(left > 0.0)) break;
-        ray = leaving_ray(at.surface, direction, left);
+    if (side != nullptr) {
+        // Lights begin this far beside their surfaces, at most; the second term: rounding.
+        const double scale = max_component(abs(point)) + 2.0 * radius_;
+        end.resolution = 2e-11 * scale + 0x1p-50 * left;
+        ray.t_max += 2.0 * end.resolution / WalkEnd::kLeastSlope;
     }
-    return found;
+    std::vector<Hit> hits;
+    scene_.aggregate->all_hits(ray, hits, {nullptr, kAllRays, time});
+    Crossings crossings(*this, ray, end, time);
+    crossings.cross(hits);
+    return crossings.found();
 }
 
 }  // namespace alhazen

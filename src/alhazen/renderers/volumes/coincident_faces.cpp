@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
@@ -27,10 +28,41 @@ Vec3 outward(const ShadingPoint& point, const Vec3& direction, std::size_t numbe
     return normalize(along + kInward * outward);
 }
 
+/// True if light enters volumes of the material, if only by diffuse transmission.
+bool has_inside(const Material& m) {
+    if (may_bound_volume(m)) return true;
+    if (!m.metallic_roughness || m.conductor || m.dielectric) return false;
+    const MetallicRoughness& p = *m.metallic_roughness;
+    return p.diffuse_transmission.share.value > 0.0 && p.thickness.value > 0.0;
+}
+bool has_inside(const Scene& scene, MaterialId id) {
+    return has_inside(scene.materials[static_cast<std::size_t>(id)]);
+}
+
+/// The medium of the outermost solid of constructive geometry around a hit: CsgSolid::only_medium;
+/// kNoMedium: it is of no solid.
+std::uint32_t medium_of_solid(const Scene& scene, const Hit& hit) {
+    if (scene.census.solids == 0) return CsgSolid::kNoMedium;
+    const Aggregate* around = scene.aggregate.get();
+    for (std::size_t level = hit.path.size();; --level) {
+        if (around->completes_surfaces()) {
+            if (const auto* solid = dynamic_cast<const CsgAggregate*>(around)) {
+                return solid->solid().only_medium();
+            }
+        }
+        if (level == 0) return CsgSolid::kNoMedium;
+        const PrimitiveTable& table = around->primitives();
+        around = table.instances[table.index(hit.path[level - 1])].aggregate.get();
+    }
+}
+
 }  // namespace
 
 CoincidentFaces::CoincidentFaces(const Scene& scene) : scene_(scene) {
-    if (std::none_of(scene.materials.begin(), scene.materials.end(), may_bound_volume)) return;
+    if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return has_inside(m); })) {
+        return;
+    }
     std::vector<Kind> kinds;
     for (const Material& m : scene.materials) {
         kinds.push_back(may_bound_volume(m) ? Kind::BoundsVolume
@@ -58,8 +90,52 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     if (opaque_) {
         others_.clear();
     } else if (!others_.empty()) {
-        sort_entered(point, direction, arrival, mask);
+        const Medium inside = volume_of(scene_, point);
+        sort_entered(point, point.entering ? &inside : nullptr, direction, arrival, mask);
     }
+}
+
+bool CoincidentFaces::may_bound(const Hit& hit) const {
+    if (!kinds_) return false;
+    const std::uint32_t medium = medium_of_solid(scene_, hit);
+    if (medium == CsgSolid::kOpaque) return false;
+    if (medium < CsgSolid::kMixture) return has_inside(scene_, MaterialId{medium});
+    const std::optional<MaterialId> material = plain_material(*scene_.aggregate, hit);
+    return !material || has_inside(scene_, *material);
+}
+
+std::optional<Medium> CoincidentFaces::volume_behind(const Hit& hit,
+                                                     const ShadingPoint& point) const {
+    if (!kinds_) return std::nullopt;
+    const Surface& surface = point.surface;
+    const std::uint32_t medium = medium_of_solid(scene_, hit);
+    if (medium == CsgSolid::kOpaque) return std::nullopt;
+    const auto bounds_by = [&](int i) {
+        return !point.material->thin &&
+               has_inside(scene_, surface.materials[static_cast<std::size_t>(i)]);
+    };
+    if (medium < CsgSolid::kMixture) {
+        const MaterialId id{medium};
+        if (!has_inside(scene_, id)) return std::nullopt;
+        if (bounds_by(0)) return volume_of(scene_, point);
+        const MaterialSample inside = medium_at(scene_, surface, id);
+        if (inside.thin) return std::nullopt;
+        return Medium{part_number({surface.part, surface.instance}), inside.index,
+                      inside.absorption, medium};
+    }
+    for (int i = 0; i < surface.material_count; ++i) {
+        if (bounds_by(i)) return volume_of(scene_, point);
+    }
+    return std::nullopt;
+}
+
+void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const Vec3& direction,
+                           const Arrival& arrival) {
+    std::swap(others_, faces);
+    sort_entered(point, nullptr, direction, arrival, kAllRays);
+    std::swap(others_, faces);
+    others_.clear();
+    opaque_.reset();
 }
 
 void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
@@ -77,24 +153,23 @@ void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
     }
 }
 
-void CoincidentFaces::sort_entered(const ShadingPoint& point, const Vec3& direction,
-                                   const Arrival& arrival, RayMask mask) {
+void CoincidentFaces::sort_entered(const ShadingPoint& point, const Medium* own,
+                                   const Vec3& direction, const Arrival& arrival, RayMask mask) {
     entered_.clear();
-    if (point.entering) entered_.push_back({{}, others_.size()});
+    if (own != nullptr) entered_.push_back({{}, others_.size()});
     for (std::size_t i = 0; i < others_.size(); ++i) {
         if (others_[i].entering) entered_.push_back({{}, i});
     }
     if (entered_.size() < 2) return;
     const auto same = [](const Entered& a, const Entered& b) { return a.left == b.left; };
     const auto outer = [](const Entered& a, const Entered& b) { return a.left > b.left; };
-    const Medium own = volume_of(scene_, point);
     for (std::size_t k = 0; k < entered_[0].left.size(); ++k) {
         follow(leaving_ray(point.surface, outward(point, direction, k)), k, own, arrival, mask);
         std::stable_sort(entered_.begin(), entered_.end(), outer);
         if (std::adjacent_find(entered_.begin(), entered_.end(), same) == entered_.end()) break;
     }
     sorted_.clear();
-    bool around = point.entering;
+    bool around = own != nullptr;
     for (const Entered& e : entered_) {
         if (e.other == others_.size()) {
             around = false;
@@ -109,13 +184,13 @@ void CoincidentFaces::sort_entered(const ShadingPoint& point, const Vec3& direct
     std::swap(others_, sorted_);
 }
 
-void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& own,
+void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium* own,
                              const Arrival& arrival, RayMask mask) {
     within_.clear();
     for (std::size_t i = 0; i < entered_.size(); ++i) {
         Entered& e = entered_[i];
         e.left[number] = std::numeric_limits<double>::infinity();
-        const Medium& inside = e.other < others_.size() ? others_[e.other].inside : own;
+        const Medium& inside = e.other < others_.size() ? others_[e.other].inside : *own;
         within_.push_back({inside.part, inside.material, i});
     }
     hits_.clear();
@@ -124,13 +199,11 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
     double last = 0.0;
     for (const Hit& hit : hits_) {
         if (missing == 0) return;
+        if (!may_bound(hit)) continue;
         set_shading_point(scene_, ray, hit, arrival, {}, other_);
-        if ((*kinds_)[static_cast<std::size_t>(other_.surface.materials[0])] !=
-                Kind::BoundsVolume ||
-            other_.material->thin) {
-            continue;
-        }
-        const Medium volume = volume_of(scene_, other_);
+        const std::optional<Medium> behind = volume_behind(hit, other_);
+        if (!behind) continue;
+        const Medium& volume = *behind;
         if (other_.entering) {
             within_.push_back({volume.part, volume.material, entered_.size()});
             continue;

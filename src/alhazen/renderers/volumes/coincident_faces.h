@@ -51,6 +51,18 @@ class CoincidentFaces {
     /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 
+    /// False if the surface at a hit is known to bound no volume.
+    [[nodiscard]] bool may_bound(const Hit& hit) const;
+    /// The volume that a surface bounds, whether light enters it there or not: behind an opaque
+    /// wall of a solid lies the medium of that solid. `point`: of the hit. Not for solids of
+    /// several media.
+    [[nodiscard]] std::optional<Medium> volume_behind(const Hit& hit,
+                                                      const ShadingPoint& point) const;
+    /// Sorts faces at the surface of `point`: those that are entered first, the outermost volume
+    /// first. Forgets what was found.
+    void sort(OtherFaces& faces, const ShadingPoint& point, const Vec3& direction,
+              const Arrival& arrival);
+
   private:
     enum class Kind : std::uint8_t { BoundsVolume, Opaque, Neither };
 
@@ -67,11 +79,12 @@ class CoincidentFaces {
     };
 
     void look_at(const Hit& hit, const Arrival& arrival);
-    /// Sorts the faces that are entered.
-    void sort_entered(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
-                      RayMask mask);
+    /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is
+    /// entered.
+    void sort_entered(const ShadingPoint& point, const Medium* own, const Vec3& direction,
+                      const Arrival& arrival, RayMask mask);
     /// Follows ray `number` out of all volumes that are entered; sets Entered::left.
-    void follow(const Ray& ray, std::size_t number, const Medium& own, const Arrival& arrival,
+    void follow(const Ray& ray, std::size_t number, const Medium* own, const Arrival& arrival,
                 RayMask mask);
 
     const Scene& scene_;

@@ -49,6 +49,18 @@ double spot_falloff(const SpotLight& light, const Vec3& to_light) {
     return x * x * (3.0 - 2.0 * x);
 }
 
+/// True if light of the inner side of a closed surface comes out through the rest of it: of an
+/// unseen sphere of two sides. That of a seen one ends at its own surface.
+bool shines_through(const AreaLight& light) {
+    return light.two_sided && !light.seen && !light.is_part &&
+           std::holds_alternative<SphereExtent>(light.extent);
+}
+
+/// True if the point is inside of a sphere or on it.
+bool is_within(const SphereExtent& sphere, const Vec3& point) {
+    return !(length_squared(sphere.center - point) > sphere.radius * sphere.radius);
+}
+
 }  // namespace
 
 bool illuminates(const Light& light) {
@@ -105,13 +117,24 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
             [&](const AreaLight& l) {
                 const Vec3 offset = l.surface->center() - point;
                 const double d = length(offset);
-                const double solid = l.surface->projected_area(offset / d) / (d * d);
+                const double sides = shines_through(l) ? 2.0 : 1.0;
+                const double solid = sides * l.surface->projected_area(offset / d) / (d * d);
                 return LightSample{offset / d, d, (solid * std::numbers::inv_pi) * l.radiance};
             }},
         light);
 }
 
 LightSample sample_extent(const AreaLight& light, const Vec3& point, const Vec2& u) {
+    if (shines_through(light) && !is_within(std::get<SphereExtent>(light.extent), point)) {
+        // One of the two points in a direction of the cone, each with probability 1/2.
+        const bool far_side = u.x < 0.5;
+        const Vec2 rest{far_side ? 2.0 * u.x : 2.0 * u.x - 1.0, u.y};
+        const ExtentSample near = light.surface->sample(point, rest);
+        if (!(near.density > 0.0)) return {};
+        const double sum = 2.0 * dot(light.surface->center() - point, near.to_light);
+        return {near.to_light, far_side ? sum - near.distance : near.distance,
+                (2.0 * std::numbers::inv_pi / near.density) * light.radiance};
+    }
     const ExtentSample s = light.surface->sample(point, u);
     if (!(s.density > 0.0)) return {};
     return {s.to_light, s.distance, (std::numbers::inv_pi / s.density) * light.radiance};

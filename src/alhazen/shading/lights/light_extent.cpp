@@ -127,7 +127,8 @@ double LightSurface::projected_area(const Vec3& direction) const {
     }
     const double cosine = -dot(direction, normal_);
     if (std::holds_alternative<TubeExtent>(extent_)) {
-        return area_ / kPi * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+        const double outside = area_ / kPi * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+        return (two_sided_ ? 2.0 : 1.0) * outside;
     }
     return area_ * (two_sided_ ? std::abs(cosine) : std::max(0.0, cosine));
 }
