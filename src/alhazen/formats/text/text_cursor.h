@@ -205,7 +205,7 @@ class TextCursor {
     }
     /// The end of the line, or of the text, if only blanks separate it from the character; else
     /// null.
-    [[nodiscard]] const char* line_end_behind(const char* at) const {
+    [[nodiscard, gnu::noinline, gnu::cold]] const char* line_end_behind(const char* at) const {
         const char* after = at + 1;
         while (after != end_ && is_blank(*after)) ++after;
         return after != end_ && !is_newline(*after) ? nullptr : after;
