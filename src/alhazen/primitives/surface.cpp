@@ -112,7 +112,16 @@ Vec3 reach_of_shape(const S& shape, const Vec3& point) {
         constexpr double kLargest = std::numeric_limits<double>::max();
         if (reach.x <= kLargest && reach.y <= kLargest && reach.z <= kLargest) return reach;
     }
-    return reach_of(shape.box(), point);
+    const Vec3 reach = reach_of(shape.box(), point);
+    if constexpr (std::is_same_v<S, Quadric>) {
+        // Far from its centre the test of an unbounded quadric moves the ray's origin along the
+        // ray, which rounds along all axes relative to the point's distance.
+        if (!shape.clip_box.bounded()) {
+            const double most = max_component(reach);
+            return {most, most, most};
+        }
+    }
+    return reach;
 }
 
 /// The surface in the shape's own frame. The shape bounds the error of the point; adds the rounding

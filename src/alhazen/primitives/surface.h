@@ -104,8 +104,8 @@ struct HitParts {
 /// hit the surface again.
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
-/// Differs: the margin is 32 times the bound, which also covers the rounding of the next
-/// intersection test.
+/// Differs: the margin is 32 times the bound, which contains the rounding of the next intersection
+/// test (docs/design/secondary_rays.md).
 [[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 

@@ -155,8 +155,7 @@ bool ObjFreeFormReader::index(TextCursor& cursor, std::size_t count, std::int32_
     std::int64_t read = 0;
     const TextCursor start = cursor;
     const bool good =
-        cursor.leading_integer(read) &&
-        (cursor.at_end() || TextCursor::is_space(cursor.peek()) || cursor.peek() == '/');
+        cursor.leading_integer(read) && (cursor.at_word_end() || cursor.peek() == '/');
     const std::int64_t resolved = read < 0 ? std::int64_t(count) + read : read - 1;
     if (!good || read == 0 || resolved < 0 || resolved > INT_MAX - 1) {
         error_(start,
@@ -165,7 +164,7 @@ bool ObjFreeFormReader::index(TextCursor& cursor, std::size_t count, std::int32_
                    start.shown_word());
         return false;
     }
-    (void)cursor.word();
+    while (!cursor.at_word_end()) (void)cursor.take(cursor.peek());
     value = std::int32_t(resolved);
     return true;
 }

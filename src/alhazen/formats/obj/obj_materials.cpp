@@ -28,6 +28,14 @@ Rgb beside(const std::optional<Rgb>& value, const MtlMap& map, const Rgb& missin
     return value.value_or(missing);
 }
 
+/// The part of a name before a comment, or all of it.
+std::string without_comment(const std::string& name) {
+    const std::size_t comment = std::min(name.find(" #"), name.find("\t#"));
+    if (comment == std::string::npos) return name;
+    const std::size_t last = name.find_last_not_of(" \t", comment);
+    return last == std::string::npos ? name : name.substr(0, last + 1);
+}
+
 /// The words of a line; a backslash escapes a blank within a word.
 std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words(1);
@@ -90,6 +98,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
         std::vector<MtlMaterial> materials = read_mtl(text, path.string(), diagnostics_);
         for (MtlMaterial& material : materials) {
             if (!entry_of_.try_emplace(material.name, entries_.size()).second) continue;
+            entry_of_part_.try_emplace(without_comment(material.name), entries_.size());
             entries_.push_back(std::move(material));
             entry_folders_.push_back(std::filesystem::path(*found).parent_path().string());
         }
@@ -105,16 +114,26 @@ MaterialId ObjMaterials::use(const std::string& name, const FileLocation& where)
     if (name.empty()) return grey();
     const auto [entry, fresh] = used_.try_emplace(name);
     if (!fresh) return entry->second;
-    const auto found = entry_of_.find(name);
-    if (found == entry_of_.end()) {
+    const std::optional<std::size_t> found = find_entry(name);
+    if (!found) {
         diagnostics_.warning(where,
                              "no material library has '" + name.substr(0, 200) + "'; it is grey");
         entry->second = grey();
     } else {
-        current_folder_ = entry_folders_[found->second];
-        entry->second = add(entries_[found->second]);
+        current_folder_ = entry_folders_[*found];
+        entry->second = add(entries_[*found]);
     }
     return entry->second;
+}
+
+/// Of a name with a comment the whole, else the part before it, on either side.
+std::optional<std::size_t> ObjMaterials::find_entry(const std::string& name) const {
+    const std::string part = without_comment(name);
+    for (const std::string& key : {name, part}) {
+        if (const auto found = entry_of_.find(key); found != entry_of_.end()) return found->second;
+    }
+    const auto found = entry_of_part_.find(part);
+    return found == entry_of_part_.end() ? std::nullopt : std::optional(found->second);
 }
 
 MaterialId ObjMaterials::grey() {
@@ -242,10 +261,8 @@ std::optional<std::string> ObjMaterials::find_picture(const std::string& written
         return found ? found : finder_.find(name);
     };
     if (auto found = find(written)) return found;
-    const std::size_t comment = written.find(" #");
-    if (comment == std::string::npos) return std::nullopt;
-    const std::size_t last = written.find_last_not_of(" \t", comment);
-    return last == std::string::npos ? std::nullopt : find(written.substr(0, last + 1));
+    const std::string part = without_comment(written);
+    return part == written ? std::nullopt : find(part);
 }
 
 TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {

@@ -44,6 +44,7 @@ class ObjMaterials {
     /// used unchanged, height images are converted to normals.
     NormalMap normal_map(const MtlMaterial& m);
     bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
+    [[nodiscard]] std::optional<std::size_t> find_entry(const std::string& name) const;
     /// The picture of this name; none if there is no such file. A comment may follow the name.
     std::optional<std::string> find_picture(const std::string& written);
     TextureId texture(const MtlMap& map, bool is_color);
@@ -67,6 +68,7 @@ class ObjMaterials {
     std::vector<std::string> entry_folders_;  ///< [entry] of its library, relative to the scene
     std::string current_folder_;              ///< of the current entry
     std::unordered_map<std::string, std::size_t> entry_of_;
+    std::unordered_map<std::string, std::size_t> entry_of_part_;  ///< by names without comments
     std::unordered_map<std::string, MaterialId> used_;
     std::unordered_map<std::string, bool> loaded_;
     std::unordered_map<std::shared_ptr<const StoredImage>, bool> is_normal_map_;

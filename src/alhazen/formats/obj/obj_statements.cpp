@@ -314,8 +314,7 @@ class StatementReader {
         return true;
     }
     [[nodiscard]] bool at_word_end() const {
-        const char next = cursor_.peek();
-        return cursor_.at_end() || TextCursor::is_space(next) || next == '#';
+        return cursor_.at_word_end() || cursor_.peek() == '#';
     }
 
     /// Reads an object or group name. An object ends the previous group; a group within an object

@@ -6,7 +6,7 @@
 ///
 /// Source: Clinger, "How to Read Floating Point Numbers Accurately", 1990, for short decimals: the
 /// quotient of two exact doubles is the correctly rounded number.
-/// Conventions: a number may start with `+` and ends at white space or at the end of the text.
+/// Conventions: a number may start with `+` and ends where `at_word_end` says.
 /// Lines end at \n, \r\n or \r. Lines and columns count from 1. NaN and infinities are not numbers.
 
 #include <charconv>
@@ -50,6 +50,8 @@ class TextCursor {
             if (*next_ != '\\' || !joins_lines()) return true;
         }
     }
+    /// True at white space, at a backslash that continues the line, and at the end of the text.
+    [[nodiscard]] bool at_word_end() const { return ends_word(next_); }
     /// Moves past the end of this line.
     void skip_line() {
         while (next_ != end_ && !is_newline(*next_)) ++next_;
@@ -116,15 +118,15 @@ class TextCursor {
         } else if (error != std::errc{} || !std::isfinite(value)) {
             return false;
         }
-        if (stop != end_ && !is_space(*stop)) return false;
+        if (!ends_word(stop)) return false;
         next_ = stop;
         return true;
     }
-    /// Reads an integer that ends at white space. On failure the cursor does not move.
+    /// Reads an integer that ends as a number. On failure the cursor does not move.
     bool integer(std::int64_t& value) {
         const char* const start = next_;
         if (!leading_integer(value)) return false;
-        if (next_ == end_ || is_space(*next_)) return true;
+        if (at_word_end()) return true;
         next_ = start;
         return false;
     }
@@ -185,7 +187,7 @@ class TextCursor {
             if (decimals == 0) return false;
             count += decimals;
         }
-        if (count > 15 || (at != end_ && !is_space(*at))) return false;
+        if (count > 15 || !ends_word(at)) return false;
         const double size = double(std::int64_t(digits)) / kPowers[decimals];
         value = negative ? -size : size;
         next_ = at;
@@ -198,10 +200,19 @@ class TextCursor {
         ++line_;
         line_start_ = next_;
     }
-    bool joins_lines() {
-        const char* after = next_ + 1;
+    [[nodiscard]] bool ends_word(const char* at) const {
+        return at == end_ || is_space(*at) || (*at == '\\' && line_end_behind(at) != nullptr);
+    }
+    /// The end of the line, or of the text, if only blanks separate it from the character; else
+    /// null.
+    [[nodiscard, gnu::noinline, gnu::cold]] const char* line_end_behind(const char* at) const {
+        const char* after = at + 1;
         while (after != end_ && is_blank(*after)) ++after;
-        if (after != end_ && !is_newline(*after)) return false;
+        return after != end_ && !is_newline(*after) ? nullptr : after;
+    }
+    bool joins_lines() {
+        const char* const after = line_end_behind(next_);
+        if (after == nullptr) return false;
         next_ = after;
         step_over_newline();
         return true;

@@ -24,6 +24,9 @@ EarClipper::EarClipper(const std::vector<Vec2>& flat)
 
 std::vector<std::array<std::uint32_t, 3>> EarClipper::clip() {
     merge_repeated();
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        if (!corners_[i].gone) cut_spikes(i);
+    }
     rebuild();
     renew_ears();
     std::uint32_t at = 0;
@@ -44,6 +47,31 @@ void EarClipper::merge_repeated() {
     for (std::uint32_t i = 0; i < corners_.size() && left_ > 2; ++i) {
         if (flat_[i] == flat_[corners_[i].next]) emit(i);
     }
+}
+
+/// True if the outline turns back at the corner, or does not move to or from it: its triangle has
+/// no area, so that without the corner the loop surrounds the same points.
+bool EarClipper::is_spike(std::uint32_t i) const {
+    const Vec2 a = flat_[corners_[i].previous], b = flat_[i], c = flat_[corners_[i].next];
+    const Vec2 to = b - a, from = c - b;
+    return to.x * from.x + to.y * from.y <= 0.0 && orientation(a, b, c) == 0;
+}
+
+/// Cuts off spikes at a corner and the next one, and those that this makes. Returns the last corner
+/// left at or before it.
+std::uint32_t EarClipper::cut_spikes(std::uint32_t at) {
+    while (left_ > 2) {
+        const std::uint32_t next = corners_[at].next;
+        if (is_spike(at)) {
+            emit(at);
+            at = corners_[at].previous;
+        } else if (is_spike(next)) {
+            emit(next);
+        } else {
+            break;
+        }
+    }
+    return at;
 }
 
 /// Rebuilds the tree over the remaining vertices, at most half as many as at the last build.
@@ -113,13 +141,14 @@ void EarClipper::emit(std::uint32_t at) {
 
 void EarClipper::cut(std::uint32_t at) {
     emit(at);
-    const std::uint32_t next = corners_[at].next;
     std::uint32_t previous = corners_[at].previous;
-    while (left_ > 2 && flat_[previous] == flat_[next]) {
+    while (left_ > 2 && flat_[previous] == flat_[corners_[at].next]) {
         emit(previous);
         previous = corners_[previous].previous;
     }
+    previous = cut_spikes(previous);
     if (left_ <= 2) return;
+    const std::uint32_t next = corners_[previous].next;
     classify(previous);
     classify(next);
     update_ear(previous);

@@ -4,7 +4,8 @@
 /// Source: Eberly, "Triangulation by Ear Clipping", Geometric Tools, 2002 (only reflex vertices are
 /// tested; the state of an ear's two neighbours is updated when it is cut off).
 /// Differs: signs are exact; reflex vertices are found by a tree of boxes, the next ear by a tree
-/// of words. Of coincident neighbours one is cut off at once, as neither has an angle. A polygon
+/// of words. Of coincident neighbours one is cut off at once, as neither has an angle; so is a
+/// corner that turns back, the tip of a spike or a slit without width. A polygon
 /// without a remaining ear (it touches or crosses itself) is cut at a corner without area, or else
 /// at its next corner that does not turn right, so that n vertices always give n - 2 triangles.
 /// Conventions: the triangles of a simple counter-clockwise polygon tile it exactly; those of other
@@ -43,6 +44,8 @@ class EarClipper {
         bool ear = false, gone = false;
     };
     void merge_repeated();
+    [[nodiscard]] bool is_spike(std::uint32_t i) const;
+    std::uint32_t cut_spikes(std::uint32_t at);
     void rebuild();
     void renew_ears();
     void classify(std::uint32_t i);

@@ -9,6 +9,7 @@
 
 #include "alhazen/geometry/polygon/ear_clipper.h"
 #include "alhazen/geometry/polygon/sweep_triangulation.h"
+#include "alhazen/math/orientation.h"
 
 namespace alhazen {
 
@@ -67,8 +68,14 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::
 /// Ear clipping makes better-shaped triangles and accepts any polygon; the sweep is always fast.
 constexpr std::size_t kMostForEars = 1024;
 
-/// True if no corner turns right and the turns add up to one revolution (a star turns left at every
-/// corner, but makes several revolutions).
+/// True if the corner b is the tip of a spike or a slit without width.
+bool turns_back(Vec2 a, Vec2 b, Vec2 c) {
+    const Vec2 to = b - a, from = c - b;
+    return to.x * from.x + to.y * from.y < 0.0 && orientation(a, b, c) == 0;
+}
+
+/// True if no corner turns right or back and the turns add up to one revolution (a star turns left
+/// at every corner, but makes several revolutions).
 bool is_convex(const std::vector<Vec2>& flat) {
     const std::size_t n = flat.size();
     // Relative to the first vertex: far from the origin the products would lose all digits.
@@ -81,6 +88,7 @@ bool is_convex(const std::vector<Vec2>& flat) {
         const Vec2 q = flat[i + 1 < n ? i + 1 : 0] - origin;
         const Vec2 r = flat[i + 2 < n ? i + 2 : i + 2 - n] - origin;
         if (!(cross_2d(p, q, r) >= 0.0)) return false;
+        if (turns_back(p, q, r)) return false;
         const double dx = q.x - p.x;
         if (dx == 0.0) continue;
         if (last_dx == 0.0) {

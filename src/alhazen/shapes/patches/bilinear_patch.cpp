@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/core/mixed_rounding.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/patches/bezier_net.h"
 
@@ -160,13 +161,17 @@ constexpr double kOnPatch = 0x1p-44;
 /// accurate to 2^-26.
 constexpr double kOnSquare = 0x1p-20;
 
-/// Bound of the rounding by which a crossing may leave the patch.
-double crossing_reach(const BilinearPatch& patch) {
+double largest_coordinate(const BilinearPatch& patch) {
     double most = 0.0;
     for (const Vec3& p : {patch.p00, patch.p10, patch.p01, patch.p11}) {
         most = std::max(most, max_component(abs(p)));
     }
-    return 1e-14 * most;
+    return most;
+}
+
+/// Bound of the rounding by which a crossing may leave the patch.
+double crossing_reach(const BilinearPatch& patch) {
+    return 1e-14 * largest_coordinate(patch);
 }
 
 }  // namespace
@@ -257,6 +262,7 @@ ShapeSurface BilinearPatch::surface(const Ray&, const ShapeHit& hit) const {
                                      std::max(std::abs(p01[k]), std::abs(p11[k])));
         surface.error[k] = gamma_bound(10) * most;
     }
+    surface.error += patch_test_rounding(largest_coordinate(*this));
     return surface;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alhazen/shapes/core/first_hits.h"
+#include "alhazen/shapes/core/mixed_rounding.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/patches/patch_apart.h"
 #include "alhazen/shapes/patches/patch_index.h"
@@ -163,7 +164,9 @@ ShapeSurface PatchTree::surface(const Ray&, const ShapeHit& hit) const {
     surface.uv = {hit.u, hit.v};
     surface.dpdu = p.du / (hi.x - lo.x);
     surface.dpdv = p.dv / (hi.y - lo.y);
-    surface.error = evaluation_error(net);
+    surface.error =
+        evaluation_error(net) +
+        patch_test_rounding(std::max(max_component(abs(box_.lo)), max_component(abs(box_.hi))));
     return surface;
 }
 

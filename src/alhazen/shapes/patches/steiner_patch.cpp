@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/shapes/core/mixed_rounding.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/patches/patch_checks.h"
 #include "alhazen/shapes/patches/patch_tree.h"
@@ -109,7 +110,7 @@ ShapeSurface SteinerPatch::surface(const Ray&, const ShapeHit& hit) const {
         const Vec3 x = abs(projected(p));
         most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
     }
-    surface.error = (2.0 * gamma_bound(12)) * most;
+    surface.error = (2.0 * gamma_bound(12)) * most + patch_test_rounding(max_component(most));
     return surface;
 }
 

@@ -317,6 +317,32 @@ TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
     EXPECT_EQ(found.error_count(), 0u);
 }
 
+TEST(ObjScene, ABackslashContinuesTheNumbersOfAMaterial) {
+    EXPECT_EQ(material_of("Kd .5\\\n .25\\\r\n.125\n").diffuse.color, (Rgb{0.5, 0.25, 0.125}));
+}
+
+TEST(ObjScene, ACommentBehindTheNameOfAMaterialIsNoPartOfItUnlessItsNameHasIt) {
+    Diagnostics found;
+    const TemporaryFolder folder;
+    folder.write("a.mtl",
+                 "newmtl a # one\nKd 1 0 0\nnewmtl b\nKd 0 1 0\nnewmtl b #2\nKd 0 0 1\n"
+                 "newmtl c\t#3\nKd 1 1 0\nnewmtl d#\nKd 1 0 1\n");
+    const auto color = [&](const std::string& name) {
+        const SceneDescription scene = scene_of(
+            "mtllib a.mtl\n" + kSquare + "usemtl " + name + "\nf 1 2 3\n", found, folder.path());
+        return scene.materials.at(0).material.diffuse.color;
+    };
+    EXPECT_EQ(color("a"), (Rgb{1, 0, 0}));
+    EXPECT_EQ(color("a # one"), (Rgb{1, 0, 0}));
+    EXPECT_EQ(color("a  # another"), (Rgb{1, 0, 0}));
+    EXPECT_EQ(color("b"), (Rgb{0, 1, 0}));
+    EXPECT_EQ(color("b # note"), (Rgb{0, 1, 0}));
+    EXPECT_EQ(color("b #2"), (Rgb{0, 0, 1}));
+    EXPECT_EQ(color("c # note"), (Rgb{1, 1, 0}));
+    EXPECT_EQ(color("d#"), (Rgb{1, 0, 1}));
+    EXPECT_EQ(text_of(found), "");
+}
+
 TEST(ObjScene, WhatALibraryHasThatIsUnknownOrOutOfRangeIsListedOnce) {
     const auto finding = [](const std::string& mtl) {
         Diagnostics found;

@@ -19,7 +19,8 @@ TEST(Obj, AllFormsOfAFaceAreRead) {
     for (const char* face :
          {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
           "f -4 -3 -2 -1", "f -4/-4/-1 -3/-3/-1 3/3/1 4/4/1", "f 1 2 \\\n 3 4", "f 1 2 \\ \t\n 3 4",
-          "f 1 2 3 4 \\", "f 1/ 2/ 3/ 4/", "  f\t1 2 3 4  # a comment"}) {
+          "f 1 2 3\\\n 4", "f 1/1/1\\ \n2/2/1 3/3/1\\\r\n 4/4/1", "f 1 2 3 4 \\", "f 1 2 3 4\\",
+          "f 1/ 2/ 3/ 4/", "  f\t1 2 3 4  # a comment"}) {
         Diagnostics found;
         const TriangleMesh mesh = mesh_of(kCorners + more + face, "a.obj", found);
         EXPECT_EQ(text_of(found), "") << face;
@@ -35,9 +36,19 @@ TEST(Obj, AllFormsOfAFaceAreRead) {
     }
 }
 
+TEST(Obj, ABackslashBehindANumberContinuesTheLine) {
+    Diagnostics found;
+    const TriangleMesh mesh =
+        mesh_of("v 0 0\\\n 0\nv 1\\\n0\\\r\n0\nv 1 1. \\\n0\nf 1 2 3\n", "a.obj", found);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
+    (void)mesh_of("v 0 0 0\\1\n", "a.obj", found);
+    EXPECT_TRUE(mentions(found, "expected a number, found '0\\1'")) << text_of(found);
+}
+
 TEST(Obj, TrianglesOfPositionsAloneAreReadAsAnyOther) {
     for (const char* face : {"f 1 2 3", "f +1 2\t3 ", "f -4 -3 -2", "f 1 2 3#c", "f 1 2 3 # c",
-                             "f 1 \\\n 2 \\\n3", "f 1/ 2 3"}) {
+                             "f 1 \\\n 2 \\\n3", "f 1\\\n2\\\n 3", "f 1/ 2 3"}) {
         Diagnostics found;
         const TriangleMesh good = mesh_of(kCorners + face + "\nf 1 3 4\n", "a.obj", found);
         ASSERT_EQ(good.triangles.size(), 2u) << face << text_of(found);

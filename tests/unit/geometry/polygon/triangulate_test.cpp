@@ -57,6 +57,44 @@ TEST(Triangulate, AConvexPolygonIsAFan) {
     EXPECT_EQ(triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
+/// The triangles have the polygon's area without signs: they stay inside and do not overlap.
+TEST(Triangulate, SpikesAndSlitsWithoutWidthHaveNoArea) {
+    struct Outline {
+        std::vector<Vec2> points;
+        double area;
+    };
+    const std::vector<Outline> outlines{
+        {{{0, 0}, {2, 0}, {4, 0}, {2, 0}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {2, 0}, {3, -1}, {2, 0}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {1, 0}, {1, -2}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {1, 0}, {1, 1}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {2, 0}, {2, 2}, {2, 3}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {3, 0}, {2, 0}, {2, 2}, {0, 2}}, 4},
+        {{{0, 0}, {2, 0}, {2, 2}, {-1, 2}, {0, 2}}, 4},
+        {{{0, 0}, {3, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 3},
+        // A slit out in one step and back in two, and a spike on a spike.
+        {{{0, 0}, {2, 0}, {2, 2}, {1, 2}, {1, 1}, {1, 1.5}, {1, 2}, {0, 2}}, 4},
+        {{{0, 0}, {2, 0}, {4, 0}, {4, 1}, {4, 0}, {3, 0}, {2, 0}, {2, 2}, {0, 2}}, 4}};
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        const std::size_t n = outlines[i].points.size();
+        for (std::size_t first = 0; first < 2 * n; ++first) {
+            std::vector<Vec3> points;
+            for (std::size_t k = 0; k < n; ++k) {
+                const Vec2 p = outlines[i].points[(first + (first < n ? k : n - k)) % n];
+                points.push_back({p.x, p.y, 0});
+            }
+            const Triangles triangles = cut(points);
+            ASSERT_EQ(triangles.size(), n - 2);
+            double sum = 0.0;
+            for (const auto& t : triangles) {
+                sum +=
+                    0.5 * length(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+            }
+            EXPECT_NEAR(sum, outlines[i].area, 1e-12) << "outline " << i << ", first " << first;
+        }
+    }
+}
+
 TEST(Triangulate, AnArrowheadQuadIsCutAtItsNotch) {
     expect_tiling({{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5, 1, 0}},
                   cut({{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5, 1, 0}}));
