@@ -18,14 +18,16 @@ double processor_seconds() {
 
 namespace {
 
-/// The numbers of the tracers in the order of a round; see `measure`.
-std::vector<std::size_t> draw_order(const std::vector<Contender>& tracers, RandomStream& random) {
+/// The numbers of the tracers in the order of a round; see `measure`. `last`: the group of the last
+/// call of the round before, or empty.
+std::vector<std::size_t> draw_order(const std::vector<Contender>& tracers, const std::string& last,
+                                    RandomStream& random) {
     std::vector<std::size_t> left(tracers.size()), order, others;
     std::iota(left.begin(), left.end(), std::size_t{0});
     while (!left.empty()) {
         others.clear();
         for (const std::size_t i : left) {
-            if (order.empty() || tracers[i].group != tracers[order.back()].group) {
+            if (tracers[i].group != (order.empty() ? last : tracers[order.back()].group)) {
                 others.push_back(i);
             }
         }
@@ -54,8 +56,10 @@ std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t
     std::vector<Measured> results;
     for (const Contender& t : tracers) results.push_back({t.group, t.name, {}, 0});
     RandomStream random(1);
+    std::string last;
     for (int round = 0; round <= rounds; ++round) {
-        for (const std::size_t i : draw_order(tracers, random)) {
+        for (const std::size_t i : draw_order(tracers, last, random)) {
+            last = tracers[i].group;
             if (tracers[i].prepare) tracers[i].prepare();
             const double begin = processor_seconds();
             tracers[i].trace();

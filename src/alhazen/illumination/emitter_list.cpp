@@ -38,6 +38,8 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
     expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         if (!make_ready(emitters_[i])) {
+            // A polygon whose corners are off its plane shines, and is met by chance.
+            has_unsampled_ |= emitters_[i].form == EmitterForm::Polygon;
             emitters_[i].area = 0.0;
         } else if (varying_[i]) {
             emitters_[i].radiance = mean_radiance(i);

@@ -355,6 +355,14 @@ TEST(CoherentBatch, RaysBesideTheBoxOfTheTreeHitWhatTheListHits) {
         }
     }
     compare("packets beside a cube", cube, rays);
+    // The cube lies behind them, within their range.
+    Rays behind = rays;
+    for (std::size_t i = 0; i < behind.size(); ++i) {
+        behind[i].t_min = std::array{-10.0, -kInfinity, -1e-60, -0.0}[i / 32 % 4];
+    }
+    compare("packets beside a cube that lies behind them", cube, behind);
+    for (Ray& ray : behind) ray.origin = {0.1, 0.2, 3}, ray.t_min = -10;
+    compare("packets from a point beside a cube that lies behind them", cube, behind);
     std::shuffle(rays.begin(), rays.end(), random);
     compare("rays beside a cube", cube, rays);
 }

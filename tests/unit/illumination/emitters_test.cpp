@@ -127,6 +127,14 @@ TEST(Emitters, DrawsGiveTheLightThatRaysFindByChance) {
     }
 }
 
+TEST(Emitters, APolygonWithACornerOffItsPlaneIsToldFromOthers) {
+    Polygon p;
+    p.vertices = {{-0.3, 0, 1.1}, {-0.2, 0.5, 1.1333333}, {0.3, 0.4, 1.2}, {0.3, 0, 1.2}};
+    EXPECT_TRUE(Illumination(lamp_of(p)).has_unsampled_emitters());
+    p.vertices[1].z = 1.1 + 0.1 / 6;
+    EXPECT_FALSE(Illumination(lamp_of(p)).has_unsampled_emitters());
+}
+
 TEST(Emitters, PolygonsThatCrossThemselvesOrHaveHolesAreDrawn) {
     Polygon bow, ring;
     bow.vertices = {{-1, -1, 3}, {1, 1, 3}, {1, -1, 3}, {-1, 1, 3}};

@@ -141,7 +141,8 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
     const NodeRef root = layout.tree.root;
     TreeBox box;
     if (!Stats::kCounts && !root.is_leaf()) {
-        box = TreeBox(layout.tree.nodes[root.index()], layout.frame.slack.slab);
+        const FrameSlack& slack = layout.frame.slack;
+        box = TreeBox(layout.tree.nodes[root.index()], slack.slab, slack);
     }
     const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
     PacketTrials trials(kTries ? scene.failures : nullptr);

@@ -90,7 +90,10 @@ class BatchSource {
             root_box_[k + 3][0] = *std::ranges::max_element(
                 std::span(root_->planes[k + 3]).first(root_->child_count()));
         }
-        if (!Stats::kCounts) tree_box_ = TreeBox(*root_, Query::slab_slack(scene.layout->frame));
+        if (!Stats::kCounts) {
+            const LocalFrame& frame = scene.layout->frame;
+            tree_box_ = TreeBox(*root_, Query::slab_slack(frame), frame.slack);
+        }
         if (scene.layout->is_indexed()) return;
         for (std::uint32_t i = 0; kLimits && i < root_->child_count(); ++i) {
             const NodeRef child = root_->child[i];

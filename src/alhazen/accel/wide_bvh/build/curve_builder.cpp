@@ -327,7 +327,8 @@ class CurveTree {
             const std::uint64_t before = leaf == begin
                                              ? ~std::uint64_t{0}
                                              : leaves_.places[leaf - 1] ^ leaves_.places[leaf];
-            while (count > 0 && waiting[count - 1].before < before) {
+            // The first leaf joins all: two places may differ in every bit.
+            while (count > 0 && (leaf == begin || waiting[count - 1].before < before)) {
                 const Waiting& right = waiting[--count];
                 last = right.end;
                 index = first + count;

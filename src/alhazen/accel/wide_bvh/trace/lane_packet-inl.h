@@ -297,7 +297,7 @@ HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame, con
             load_local(lane_frame,
                        std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows[n]);
         }
-        wanted &= ~(box.left_by(rows[n], rows[n] + 3) << at);
+        wanted &= ~(box.left_by(rows[n], rows[n] + 3, rows[n][6]) << at);
     }
     if (wanted == 0) return 0;
     std::uint32_t usable = 0;
@@ -350,7 +350,8 @@ HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_f
         usable |= bits_of(of_usable_length(lane_frame, d[n])) << at;
         missed |= box.missed_from(point, r[n]) << at;
     }
-    wanted &= ~(missed & usable);
+    // `ends` in float keeps the sign of what rounds to 0.
+    if (!std::signbit(ends[0])) wanted &= ~(missed & usable);
     if ((wanted & usable) == 0) return 0;
     set_errors(lane_frame.frame.slack, distance);
     const LoadedFloats o[3] = {LoadedFloats(point[0]), LoadedFloats(point[1]),

@@ -26,6 +26,7 @@ namespace HWY_NAMESPACE {
 struct TreeBox {
     static constexpr float kNear = 8.0f;  ///< largest coordinate of a beginning
     float lo[3], hi[3];
+    float least_length = 0.0f;  ///< as in FrameSlack
 
     /// One that all rays meet which begin near.
     TreeBox() {
@@ -36,25 +37,31 @@ struct TreeBox {
     }
     /// `slack`: of a box, as in `make_ray`.
     template <std::size_t W>
-    TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack);
+    TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack, const FrameSlack& of_frame);
 
     /// Bits of the rays that begin beside it and go away. A direction that rounds to 0 keeps its
-    /// sign.
+    /// sign. Of rays whose range begins before 0, or whose length float does not hold: none.
     template <std::size_t N>
     [[nodiscard]] HWY_INLINE std::uint32_t left_by(const Lanes<float, N>* origin,
-                                                   const Lanes<float, N>* direction) const {
+                                                   const Lanes<float, N>* direction,
+                                                   const Lanes<float, N>& begin) const {
         using F = Lanes<float, N>;
         const F one(1.0f), zero(0.0f);
         const auto leaves = [&](std::size_t k) HWY_ATTR {
             const F way = copysign(one, direction[k]);
             return origin[k] * way >= select_lanes(way > zero, F(hi[k]), F(-lo[k]));
         };
-        // A NaN is near nothing by its bits.
-        const F far =
-            larger_by_bits(larger_by_bits(abs(origin[0]), abs(origin[1])), abs(origin[2]));
-        return bits_of((leaves(0) | leaves(1) | leaves(2)) & (far <= F(kNear)));
+        // A NaN is larger than all by its bits, and fails each comparison.
+        const auto most = [](const F* v) HWY_ATTR {
+            return larger_by_bits(larger_by_bits(abs(v[0]), abs(v[1])), abs(v[2]));
+        };
+        const F longest = most(direction);
+        return bits_of((leaves(0) | leaves(1) | leaves(2)) & (most(origin) <= F(kNear)) &
+                       (longest >= F(least_length)) & (longest <= F(0x1p40f)) &
+                       (copysign(one, begin) > zero));
     }
-    /// Bits of the rays from a point that miss it, by the reciprocals of their directions. The
+    /// Bits of the rays from a point, with a range from 0 or more, that miss it, by the reciprocals
+    /// of their directions. The
     /// rounding of differences and products is less than that of SlabRay.
     template <std::size_t N>
     [[nodiscard]] HWY_INLINE std::uint32_t missed_from(const float (&point)[3],
@@ -73,7 +80,8 @@ struct TreeBox {
 };
 
 template <std::size_t W>
-TreeBox::TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack) {
+TreeBox::TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack, const FrameSlack& of_frame)
+    : least_length(of_frame.least_length) {
     // More than the slack, for the sum rounds.
     const float more = 1.01f * slack.at(kNear);
     const std::uint32_t count = root.child_count();

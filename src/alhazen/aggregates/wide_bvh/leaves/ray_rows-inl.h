@@ -60,7 +60,7 @@ HWY_INLINE void RayRows::load(const LaneFrame& frame, const DistanceBound& bound
                               const TreeBox& box, const GivenRays& rays, std::size_t first) {
     load_local(frame, rays, first, local);
     prepared = 0;
-    left = box.left_by(local, local + 3);
+    left = box.left_by(local, local + 3, local[6]);
     if (left == (1u << kRays) - 1) return;
     const F* const origin = local;
     const F* const direction = local + 3;
