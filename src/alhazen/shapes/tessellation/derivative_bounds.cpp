@@ -172,7 +172,8 @@ PatchDerivativeBounds second_derivative_bounds(const BezierNet& net) {
         const RationalParts s(net, center, 0, 0), su(net, center, 1, 0), sv(net, center, 0, 1);
         const auto tighten = [&](double& bound, const RationalParts& first,
                                  const RationalParts& second, int du, int dv) {
-            if (du > m || dv > n || bound == 0.0) return;
+            // A polynomial of degree -1 is one without coefficients: 0.
+            if (du > m + 1 || dv > n + 1 || bound == 0.0) return;
             const RationalParts both(net, center, du, dv);
             bound = std::min(bound, numerator_bound(s, first, second, both));
         };

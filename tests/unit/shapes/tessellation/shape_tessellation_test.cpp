@@ -100,6 +100,41 @@ TEST(PatchTessellation, AlongTheLinesOfACylinderOneCellIsEnough) {
     }
 }
 
+TEST(PatchTessellation, APatchOfDegreeOneIsDividedLikeThatOfDegreeTwo) {
+    const Vec3 corners[2][2] = {{{0, 0, 0}, {0, 2, 1}}, {{2, 0, 1}, {2, 2, 0}}};
+    const double weights[2][2] = {{1, 2}, {5, 20}};
+    BezierPatch one{.degree_u = 1, .degree_v = 1}, two{.degree_u = 2, .degree_v = 2};
+    for (int i = 0; i <= 2; ++i) {
+        for (int j = 0; j <= 2; ++j) {
+            Vec3 point;
+            double weight = 0;
+            for (const auto& [a, b] : {std::pair{i / 2, j / 2},
+                                       {(i + 1) / 2, j / 2},
+                                       {i / 2, (j + 1) / 2},
+                                       {(i + 1) / 2, (j + 1) / 2}}) {
+                point += 0.25 * weights[a][b] * corners[a][b];
+                weight += 0.25 * weights[a][b];
+            }
+            two.points.push_back(point / weight);
+            two.weights.push_back(weight);
+            if (i == 1 || j == 1) continue;
+            one.points.push_back(two.points.back());
+            one.weights.push_back(weight);
+        }
+    }
+    std::vector<std::size_t> counts;
+    Random random(4);
+    for (BezierPatch patch : {one, two}) {
+        patch.prepare();
+        const BezierPiece piece{.net = patch.net()};
+        TriangleMesh mesh;
+        ASSERT_TRUE(append_triangles(piece, 0.01, kLimit, mesh));
+        EXPECT_LE(largest_distance(piece, mesh, random), 0.01 * (1 + 1e-9));
+        counts.push_back(mesh.triangles.size());
+    }
+    EXPECT_LT(counts[0], 2 * counts[1]);
+}
+
 template <class S>
 TriangleMesh mesh_of(S shape, double tolerance) {
     shape.prepare();
