@@ -21,6 +21,7 @@ const OTHER_SERVER = "The server was replaced, and this page has no key to the n
   "`alhazen view` printed.";
 const SILENT = "The server does not answer: waiting for it.";
 const BUSY = "The server is busy with other pages: it has 8 clients at most. Close one of them.";
+const REST = 300;            // milliseconds without a step after which a movement is over
 const BUSY_PATIENCE = 6000;   // milliseconds; the server disconnects idle clients after 5 s
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
@@ -67,6 +68,7 @@ export class Viewer {
   private explaining: object | undefined;
   private halted = false;                 // by Stop, until something changes
   private busy = false;                   // the server refused this page a place
+  private movedAt = -Infinity;            // when the view was moved last
   private shownAccelerator: string | undefined;
   private described = "";                 // of the displayed picture
   private shownAt = 0;
@@ -323,8 +325,17 @@ export class Viewer {
     // Skips levels that would not be larger than the displayed picture, except one of its size with full depth.
     const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
     do ++this.level; while (this.level < 3 && this.widthOf(this.levels()[this.level][0]) < least);
-    if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
+    if (this.done()) this.sayAtRest(doneText(head.facts, asked.wish.samples));
     this.request();
+  }
+  // Announces a picture that is done, but none between two steps of a movement.
+  private sayAtRest(text: string) {
+    const generation = this.generation, wait = this.movedAt + REST - performance.now();
+    const say = () => {
+      if (generation === this.generation && this.done() && !this.held) this.spoken.textContent = text;
+    };
+    if (wait > 0) setTimeout(say, wait);
+    else say();
   }
   // True if a picture has less than the chosen depth, or another renderer.
   private isLess(wish: Wish, deepest: number) {
@@ -365,6 +376,7 @@ export class Viewer {
     if (!this.camera) return;
     if (mark) this.remember();
     change(this.camera);
+    this.movedAt = performance.now();
     this.changed();
   }
   private goHome() {

@@ -2160,6 +2160,7 @@ var NO_ENVIRONMENT = "This renderer shows the background of the scene; those tha
 var OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that `alhazen view` printed.";
 var SILENT = "The server does not answer: waiting for it.";
 var BUSY = "The server is busy with other pages: it has 8 clients at most. Close one of them.";
+var REST = 300;
 var BUSY_PATIENCE = 6e3;
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
@@ -2210,6 +2211,8 @@ var Viewer = class {
   // by Stop, until something changes
   busy = false;
   // the server refused this page a place
+  movedAt = -Infinity;
+  // when the view was moved last
   shownAccelerator;
   described = "";
   // of the displayed picture
@@ -2487,8 +2490,17 @@ var Viewer = class {
     do
       ++this.level;
     while (this.level < 3 && this.widthOf(this.levels()[this.level][0]) < least);
-    if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
+    if (this.done()) this.sayAtRest(doneText(head.facts, asked.wish.samples));
     this.request();
+  }
+  // Announces a picture that is done, but none between two steps of a movement.
+  sayAtRest(text) {
+    const generation = this.generation, wait = this.movedAt + REST - performance.now();
+    const say = () => {
+      if (generation === this.generation && this.done() && !this.held) this.spoken.textContent = text;
+    };
+    if (wait > 0) setTimeout(say, wait);
+    else say();
   }
   // True if a picture has less than the chosen depth, or another renderer.
   isLess(wish, deepest) {
@@ -2535,6 +2547,7 @@ var Viewer = class {
     if (!this.camera) return;
     if (mark) this.remember();
     change(this.camera);
+    this.movedAt = performance.now();
     this.changed();
   }
   goHome() {
