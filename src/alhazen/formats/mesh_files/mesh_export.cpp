@@ -169,13 +169,13 @@ bool has_vertex_materials(const NamedMesh& from) {
 
 /// The material of a face: where vertices have materials, that of its first vertex.
 std::string face_material(const NamedMesh& from, const std::array<std::uint32_t, 3>& face) {
-    if (!has_vertex_materials(from)) return one_line(from.material);
-    return one_line(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
+    if (!has_vertex_materials(from)) return one_name(from.material);
+    return one_name(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
 }
 
 void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
-    out += "o " + one_line(from.name) + '\n';
+    out += "o " + one_name(from.name) + '\n';
     append_vertices(from, out);
     const bool mirrored = mirrors(from.placement);
     const bool by_face = has_vertex_materials(from);
