@@ -339,4 +339,22 @@ std::uint64_t triangles_that_floats_collapse(std::span<const NamedMesh> meshes) 
     return count;
 }
 
+double greatest_move_by_floats(std::span<const NamedMesh> meshes) {
+    // Covers the rounding of the distance itself.
+    constexpr double kRoundUp = 1.0 + 1e-15;
+    double greatest = 0.0;
+    for (const NamedMesh& from : meshes) {
+        for (const auto& t : from.mesh->triangles) {
+            for (const std::uint32_t i : t) {
+                const Vec3 p = from.placement.point(from.mesh->positions[i]);
+                // Volatile, because g++ 12 takes double(float(x)) for x where two are adjacent.
+                const volatile float x = float(p.x), y = float(p.y), z = float(p.z);
+                const double move = std::hypot(double(x) - p.x, double(y) - p.y, double(z) - p.z);
+                greatest = std::max(greatest, move);
+            }
+        }
+    }
+    return greatest * kRoundUp;
+}
+
 }  // namespace alhazen
