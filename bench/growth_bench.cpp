@@ -60,7 +60,8 @@ std::vector<Point> measure_size(double wanted, const Settings& settings) {
                            [&] { packets->trace(robust.handle(), false); },
                            [&] { return packets->count_hits(); }});
 #endif
-        for (const Measured& m : measure(tracers, set.rays.size(), settings.rounds)) {
+        for (const Measured& m : measure(fmt::format("{} {}", set.name, triangles), tracers,
+                                         set.rays.size(), settings.rounds)) {
             points.push_back(point_of(set, triangles, m));
             fmt::print("{:>9.0f} triangles {:<9} {:<16} {:8.1f} ns [{:.1f}, {:.1f}]\n", triangles,
                        set.name, points.back().tracer, points.back().median, points.back().lower,

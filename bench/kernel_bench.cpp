@@ -176,8 +176,9 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
     fmt::print("{}: {}\n", scene.name, result.contents);
     for (const RaySet& set : sets_of(scene, trees, settings)) {
         const SetTracers tracers(trees, set);
-        SetResult row{set.name, set.rays.size(), count_work(*trees.robust, set),
-                      measure(tracers.list, set.rays.size(), settings.rounds)};
+        SetResult row{
+            set.name, set.rays.size(), count_work(*trees.robust, set),
+            measure(scene.name + " " + set.name, tracers.list, set.rays.size(), settings.rounds)};
         fmt::print("{}", as_text(row));
         std::fflush(stdout);
         result.sets.push_back(std::move(row));

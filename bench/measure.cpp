@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "alhazen/sampling/random.h"
@@ -39,6 +40,26 @@ std::vector<std::size_t> draw_order(const std::vector<Contender>& tracers, const
     return order;
 }
 
+/// Runs a tracer of another group, if there is one.
+void trace_another(const std::vector<Contender>& tracers, const std::string& group,
+                   RandomStream& random) {
+    std::vector<const Contender*> others;
+    for (const Contender& t : tracers) {
+        if (t.group != group) others.push_back(&t);
+    }
+    if (others.empty()) return;
+    const Contender& other = *others[random.below(others.size())];
+    if (other.prepare) other.prepare();
+    other.trace();
+}
+
+/// FNV-1a of the name, the same on every machine.
+std::uint64_t seed_of(const std::string& set) {
+    std::uint64_t seed = 0xCBF29CE484222325u;
+    for (const char c : set) seed = (seed ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+    return seed;
+}
+
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
@@ -52,13 +73,15 @@ Spread spread_of(std::vector<double> values) {
     return {values.front(), quantile(0.25), quantile(0.5), quantile(0.75), values.back()};
 }
 
-std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays, int rounds) {
+std::vector<Measured> measure(const std::string& set, const std::vector<Contender>& tracers,
+                              std::size_t rays, int rounds) {
     std::vector<Measured> results;
     for (const Contender& t : tracers) results.push_back({t.group, t.name, {}, 0});
-    RandomStream random(1);
+    RandomStream random(seed_of(set));
     std::string last;
     for (int round = 0; round <= rounds; ++round) {
         for (const std::size_t i : draw_order(tracers, last, random)) {
+            if (tracers[i].group == last) trace_another(tracers, last, random);
             last = tracers[i].group;
             if (tracers[i].prepare) tracers[i].prepare();
             const double begin = processor_seconds();

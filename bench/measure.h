@@ -34,10 +34,12 @@ struct Measured {
 };
 
 /// Runs the tracers in turn, round after round, so that a drift of the machine's speed affects all
-/// alike. Each round has an order of its own, drawn with a fixed seed, in which no tracer follows
-/// one of its group where another is left: the second to trace the same rays in the same tree finds
-/// it in the caches and its jumps foreseen. The first round warms the caches and is not counted.
-[[nodiscard]] std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays,
+/// alike. Each round has an order of its own, drawn with a seed of `set`, the name of its rays. No
+/// tracer follows one of its group: the second to trace the same rays in the same tree would find
+/// it in the caches and its jumps foreseen. Where only those are left, one of another group runs
+/// between them, untimed. The first round warms the caches and is not counted.
+[[nodiscard]] std::vector<Measured> measure(const std::string& set,
+                                            const std::vector<Contender>& tracers, std::size_t rays,
                                             int rounds);
 
 /// The tracer of a group with the best median; null if there is none. Ignores tracers whose number

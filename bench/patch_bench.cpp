@@ -127,7 +127,7 @@ int run(int argc, char** argv) {
                  [packets] { return packets->count_hits(); }});
         }
 #endif
-        print_rates(set, measure(tracers, set.rays.size(), rounds));
+        print_rates(set, measure(set.name, tracers, set.rays.size(), rounds));
     }
     return 0;
 }

@@ -27,6 +27,7 @@ int run(const ConvertArguments& args) {
     // Checks the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
+    std::string became;
     SceneDescription description =
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
@@ -43,15 +44,20 @@ int run(const ConvertArguments& args) {
         if (!args.quiet) {
             for (const std::string& line : report.lost) tell("warning: {}\n", line);
             for (const std::string& line : report.kept) tell("warning: {}\n", line);
-            tell("{} became {} within {:g} of {}\n", counted(report.shapes, "shape"),
-                 counted(report.triangles, "triangle"), *args.tolerance,
-                 report.shapes == 1 ? "it" : "them");
+            became = fmt::format("{} became {} within {:g} of {}", counted(report.shapes, "shape"),
+                                 counted(report.triangles, "triangle"), *args.tolerance,
+                                 report.shapes == 1 ? "it" : "them");
         }
     }
     ConvertOptions options = args.convert;
+    options.tolerance = args.tolerance.value_or(0.0);
     options.strict = args.scene.strict;
     const ConvertReport report = convert(description, args.output, options);
     if (args.quiet) return kDone;
+    if (report.moved > 0.0 && !became.empty()) {
+        became += ", and the file's floats move corners by up to " + rounded_up(report.moved);
+    }
+    if (!became.empty()) tell("{}\n", became);
     for (const std::string& line : conversion_warnings(report)) tell("warning: {}\n", line);
     const std::size_t beside = report.files.size() - 1;
     tell("{}: {}, {:.1f} MB{}\n", args.output, counted(report.triangles, "triangle"),

@@ -27,17 +27,28 @@ AddedLights complete(LoadedScene& loaded) {
     return added;
 }
 
-SceneDescription lights_of(const SceneDescription& description, const AddedLights& added,
-                           std::size_t camera) {
+std::optional<Light> AddedLights::of_view(const Camera& view) const {
+    if (of_cameras.empty()) return std::nullopt;
+    const Light own = headlight(view);
+    const auto place = [](const Light& light) {
+        const auto* const point = std::get_if<PointLight>(&light);
+        return point != nullptr ? point->position : std::get<DirectionalLight>(light).to_light;
+    };
+    const Light& first = of_cameras.front();
+    if (own.index() == first.index() && place(own) == place(first)) return std::nullopt;
+    return own;
+}
+
+SceneDescription lights_of(const SceneDescription& description, const Light& headlight) {
     SceneDescription result;
     result.lights = description.lights;
-    result.lights.back().light = added.of_cameras[camera];
+    result.lights.back().light = headlight;
     result.materials = description.materials;
     return result;
 }
 
 Scene with_lighting(const Scene& scene, const SceneDescription& description,
-                    const Lighting& lighting, const AddedLights& added, std::size_t camera,
+                    const Lighting& lighting, const AddedLights& added, const Camera& view,
                     bool renderer_follows_light) {
     if (added.is_left_out(renderer_follows_light, lighting)) {
         Scene result = alhazen::with_lighting(scene, description, lighting);
@@ -45,10 +56,11 @@ Scene with_lighting(const Scene& scene, const SceneDescription& description,
         if (lighting.environment != "none") result.background = added.background;
         return result;
     }
-    if (!added.is_another(camera)) return alhazen::with_lighting(scene, description, lighting);
+    const std::optional<Light> own = added.of_view(view);
+    if (!own) return alhazen::with_lighting(scene, description, lighting);
     Scene result = scene;
-    result.lights.back() = added.of_cameras[camera];
-    return alhazen::with_lighting(result, lights_of(description, added, camera), lighting);
+    result.lights.back() = *own;
+    return alhazen::with_lighting(result, lights_of(description, *own), lighting);
 }
 
 }  // namespace alhazen::viewer

@@ -5,6 +5,7 @@
 /// Conventions: a scene is completed once, for its first camera and a renderer that is not
 /// physically based. The added light is the last one of the scene and of its description.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,19 +28,22 @@ struct AddedLights {
     [[nodiscard]] bool is_another(std::size_t camera) const {
         return camera > 0 && camera < of_cameras.size();
     }
+    /// The headlight of a view; none if it is that of the first camera, or if another light was
+    /// added.
+    [[nodiscard]] std::optional<Light> of_view(const Camera& view) const;
 };
 
 /// Completes a scene that has an aggregate. Throws as `complete_view`.
 [[nodiscard]] AddedLights complete(LoadedScene& loaded);
 
-/// The lights and materials of a description whose headlight is that of a camera, for the functions
-/// of lighting.h.
+/// The lights and materials of a description with another headlight, for the functions of
+/// lighting.h.
 [[nodiscard]] SceneDescription lights_of(const SceneDescription& description,
-                                         const AddedLights& added, std::size_t camera);
+                                         const Light& headlight);
 
-/// The scene as a camera and a renderer show it. As `with_lighting` otherwise.
+/// The scene as a view and a renderer show it. As `with_lighting` otherwise.
 [[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
                                   const Lighting& lighting, const AddedLights& added,
-                                  std::size_t camera, bool renderer_follows_light);
+                                  const Camera& view, bool renderer_follows_light);
 
 }  // namespace alhazen::viewer

@@ -98,7 +98,7 @@ json camera_json(const LoadedScene& loaded, const AddedLights& added, std::size_
         camera["block"] = native_camera_text(loaded.description.cameras[i]);
     }
     if (added.is_another(i)) {
-        const SceneDescription lights = lights_of(loaded.description, added, i);
+        const SceneDescription lights = lights_of(loaded.description, added.of_cameras[i]);
         camera["headlight"] = light_json(light_choices(lights)[added_choice(lights)]);
     }
     return camera;

@@ -188,7 +188,7 @@ std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneStore::Load
         lighting.environment = "studio";
     }
     if (lighting.is_that_of_the_scene() && !here.added.is_left_out(follows, lighting) &&
-        !here.added.is_another(wish.of)) {
+        !here.added.of_view(wish.camera.camera)) {
         return std::nullopt;
     }
     if (!lighting.environment.empty()) {
@@ -198,7 +198,7 @@ std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneStore::Load
         if (is_new) place->second = make_environment(lighting.environment, description.up_axis);
         lighting.surroundings = place->second;
     }
-    return with_lighting(scene, description, lighting, here.added, wish.of, follows);
+    return with_lighting(scene, description, lighting, here.added, wish.camera.camera, follows);
 }
 
 Response ViewSession::frame(const json& request, Turn& turn) {
@@ -260,7 +260,8 @@ Response ViewSession::blocks(const json& wish) {
     const std::size_t camera = camera_number(wish);
     const std::string text =
         here->added.is_another(camera)
-            ? changed_light_blocks(lights_of(description, here->added, camera), light_changes(wish))
+            ? changed_light_blocks(lights_of(description, here->added.of_cameras[camera]),
+                                   light_changes(wish))
             : changed_light_blocks(description, light_changes(wish));
     return {200, "application/json", text_of({{"text", text}}), "", ""};
 }

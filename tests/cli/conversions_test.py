@@ -60,6 +60,12 @@ difference "bored" {
         result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.05")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("3 shapes became", result.stderr)
+        for place, added in (100, "3\\.71e-06"), (1e7, None):
+            far = self.write("far.alhazen", f"alhazen 1\nsphere {{ center = ({place}, 0, 0) }}\n")
+            result = run("convert", far, self.path("far.stl"), "--tolerance", "0.05")
+            self.assertRegex(result.stderr, "1 shape became .* within 0.05 of it, and the file's "
+                             "floats move corners by up to " + (added or "0\\.503"))
+            self.assertEqual("more than the tolerance of 0.05" in result.stderr, added is None)
         volumes = []
         for path in scene, self.path("out.ply"):
             result = run("measure", path, "--error", "1e-3", "--json", self.path("measured.json"))

@@ -167,6 +167,23 @@ class ViewCameras(ViewerPage):
             self.assertEqual(self.page.value("viewer.controls.lights.lights.find(l => l.name === 'headlight').position"), [6, 1, 0])
             self.check_quiet()
 
+    def test_a_headlight_goes_with_the_view(self):
+        bare = "\n".join(line for line in SCENE.split("\n") if not line.startswith("point_light"))
+        scene = self.write("headlight.alhazen", bare)
+        self.serve(scene)
+        headlight = "viewer.controls.lights.lights.find(l => l.name === 'headlight')"
+        self.check_block(bare)
+        self.turn()
+        self.check_block(bare)
+        self.page.wait(f"{headlight}.position.every((x, i) => x === viewer.camera.eye[i])")
+        # With another colour it still goes with the view.
+        self.page.value("viewer.controls.lights.edited(" + headlight + ", {..." + headlight + ", times: 2, sizes: []}, true)")
+        self.assertEqual(self.page.value("viewer.controls.lights.changes()[0].position ?? null"), None)
+        self.page.value("viewer.undo()")
+        self.click("Home")
+        self.check(scene)
+        self.check_quiet()
+
     def test_an_edit_keeps_the_chosen_one_of_cameras_without_names(self):
         text = SCENE.replace('"front"', "").replace('"side"', "")
         self.serve(self.write("unnamed.alhazen", text))

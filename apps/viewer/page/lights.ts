@@ -40,12 +40,14 @@ export class LightList {
   off() {
     return this.boxes.filter(b => !b.checked).map(b => b.name);
   }
-  /** The lights that differ from the file. */
-  changes(): LightChange[] {
+  /** The lights that differ from the file. `placed`: with the places of those that have not moved. */
+  changes(placed = false): LightChange[] {
     return this.lights.flatMap(light => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const {position, direction, color, times} = values, sizes = chosenSizes(light, values);
+      const {color, times} = values, sizes = chosenSizes(light, values);
+      const position = values.position ?? (placed ? light.position : undefined);
+      const direction = values.direction ?? (placed ? light.direction : undefined);
       return [{name: light.name, ...(light.position && position ? {position} : {}),
                ...(light.direction && direction ? {direction} : {}),
                ...(sizes?.length ? {sizes: sizes.map(s => s.value)} : {}),
@@ -104,7 +106,7 @@ export class LightList {
     return this.open.has(name) ? [row, this.fieldsOf(light, id)] : [row];
   }
   private fieldsOf(light: LightEntry, id: string) {
-    const fields = new LightFields(light, id, (values, mark) => this.edited(light.name, values, mark));
+    const fields = new LightFields(light, id, (values, mark) => this.edited(light, values, mark));
     fields.show(this.values.get(light.name));
     this.fields.set(light.name, fields);
     return fields.element;
@@ -123,9 +125,11 @@ export class LightList {
     this.tell();
     this.listener.changed("lights", true);
   }
-  private edited(name: string, values: LightValues | undefined, mark: boolean) {
-    if (values) this.values.set(name, values);
-    else this.values.delete(name);
+  // A headlight that has only another colour still goes with the view.
+  private edited(light: LightEntry, values: LightValues | undefined, mark: boolean) {
+    const moved = (key: "position" | "direction") => values?.[key]?.some((x, i) => x !== light[key]?.[i]) ? values[key] : undefined;
+    if (values) this.values.set(light.name, {...values, position: moved("position"), direction: moved("direction")});
+    else this.values.delete(light.name);
     this.tell();
     this.listener.changed("light", mark);
   }
@@ -143,6 +147,6 @@ export class LightList {
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
     if (!changes.length) this.block.value = "// No light differs from the file.\n";
-    else void this.listener.blocks(changes).then(text => this.block.value = text);
+    else void this.listener.blocks(this.changes(true)).then(text => this.block.value = text);
   }
 }

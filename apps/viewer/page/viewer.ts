@@ -69,6 +69,7 @@ export class Viewer {
   private halted = false;                 // by Stop, until something changes
   private busy = false;                   // the server refused this page a place
   private movedAt = -Infinity;            // when the view was moved last
+  private resting: ReturnType<typeof setTimeout> | undefined;
   private shownAccelerator: string | undefined;
   private described = "";                 // of the displayed picture
   private shownAt = 0;
@@ -195,17 +196,24 @@ export class Viewer {
     this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
     this.fitLights(scene);
   }
-  // A light that was added to the scene belongs to the camera, and may be left out by renderers that follow light.
+  // A light that was added to the scene belongs to the view, and may be left out by renderers that follow light.
   private fitLights(scene: Scene) {
     const added = scene.added_light;
     if (!added) return;
     const follows = this.renders(this.controls.get("renderer"))?.follows_light;
     const without = follows && (!added.follows_light || this.controls.get("environment") !== "");
     const own = this.frame().headlight, lights = scene.lights.filter(l => !without || l.name !== added.name);
-    this.controls.setLights(lights.map((l): LightEntry => l.name === added.name && own ? own : l));
+    this.controls.setLights(lights.map((l): LightEntry => l.name === added.name ? this.atView(own ?? l) : l));
+  }
+  // The headlight of a camera where the view is.
+  private atView(light: LightEntry): LightEntry {
+    const view = this.camera;
+    if (!view || view.isAt(this.frame())) return light;
+    return {...light, ...(light.position ? {position: view.eye} : {}), ...(light.direction ? {direction: view.look} : {})};
   }
   private see(camera: CameraData) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
+    if (this.scene) this.fitLights(this.scene);
     this.changed();
   }
   private chosen(key: Key, before: Settings | undefined) {
@@ -377,6 +385,8 @@ export class Viewer {
     if (mark) this.remember();
     change(this.camera);
     this.movedAt = performance.now();
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.scene && this.fitLights(this.scene), REST);
     this.changed();
   }
   private goHome() {

@@ -89,6 +89,38 @@ TEST(LightVolumes, AnEyeInGlassLooksThroughIt) {
     }
 }
 
+/// A floor below a grey slab of the index of the air, and a point light above it.
+TEST(LightVolumes, APointLightShinesThroughASlabThatDoesNotRefract) {
+    const double absorption = 0.8, thick = 0.75, expected = std::exp(-absorption * thick);
+    const auto lit_floor = [&](bool covered, const Material& material, double side = 0.01) {
+        SceneMaker maker = floor_from_above(side, {0.5, 0.5, 0.5});
+        if (covered) {
+            maker.add(BoxShape{{-9, -9, 1}, {9, 9, 1 + thick}}, maker.material(material));
+        }
+        maker.light(PointLight{.position = {0, 0, 3}, .color = {1, 1, 1}});
+        return maker.compile();
+    };
+    Material gltf = testing::smooth_glass(1.0);
+    gltf.metallic_roughness->attenuation_color = Rgb{1, 1, 1} * std::exp(-absorption);
+    gltf.metallic_roughness->attenuation_distance = 1;
+    const Scene clear = lit_floor(false, {});
+    for (const Material& material : {glass({absorption, absorption, absorption}, 1.0), gltf}) {
+        const Scene scene = lit_floor(true, material);
+        for (const char* renderer :
+             {"path_tracing", "path_tracing:depth=1", "path_tracing:manifold=on",
+              "path_tracing --spectral", "photon_mapping:photons=1000", "sppm:photons=1000"}) {
+            const double open = mean_of(picture_of(clear, renderer, 2, 4)).g;
+            EXPECT_GT(open, 0.1) << renderer;
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 2, 4)).g / open, expected, 1e-4)
+                << renderer;
+        }
+    }
+    const Scene wide = lit_floor(true, gltf, 4.0);
+    expect_same_light(wide, "below a slab", {"path_tracing", "light_tracing", "bidirectional"}, 32,
+                      kMost);
+    expect_same_light(wide, "below a slab, merged", {"path_tracing", "vcm:photons=5000"}, 8, kMost);
+}
+
 /// Half of the eye rays begin in an absorbing block, half next to it.
 TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
     const double absorption = 0.7, way = 1;

@@ -490,6 +490,34 @@ TEST(ConvertMeshes, AnStlTellsOfCornersThatComeTogether) {
                  Error);
 }
 
+TEST(ConvertMeshes, AnStlTellsHowFarItsFloatsMoveCorners) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    // Floats near 1e6 are 1/16 apart: the corners are 1/64, 1/64 and 1/32 beside them.
+    auto mesh = testing::tetrahedron();
+    for (Vec3& p : mesh.positions) p = {1e6 + 1.0 / 64, 1e6 + 3.0 / 64 + p.y, 1e6 + 1.0 / 32 + p.z};
+    maker.add(maker.mesh(mesh), maker.material({.name = "plain"}));
+    const double moved = std::sqrt(1.0 + 1.0 + 4.0) / 64;
+    const auto written = [&](const char* name, const ConvertOptions& options) {
+        return convert(maker.description(), folder.path() / name, options);
+    };
+    const ConvertReport far = written("a.stl", {.tolerance = 0.05});
+    EXPECT_GE(far.moved, moved);
+    EXPECT_NEAR(far.moved, moved, 1e-12);
+    EXPECT_TRUE(losses_of(far).empty());
+    EXPECT_EQ(written("a.ply", {.tolerance = 0.05}).moved, 0.0);
+    const ConvertReport farther = written("b.stl", {.tolerance = 0.03});
+    ASSERT_EQ(losses_of(farther).size(), 1U);
+    EXPECT_EQ(losses_of(farther)[0].substr(0, 94),
+              "an STL holds floats: corners move by up to 0.0385, more than the tolerance of 0.03 "
+              "(.alhazen, ");
+    EXPECT_THROW((void)written("c.stl", {.tolerance = 0.03, .strict = true}), Error);
+    EXPECT_TRUE(losses_of(written("d.ply", {.tolerance = 0.03, .strict = true})).empty());
+    for (const double value : {0.1, 1.0049, 1.005, 9.995, 4.7684e-7}) {
+        EXPECT_GE(std::stod(rounded_up(value)), value);
+    }
+}
+
 TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
     const ScratchFolder folder;
     const auto scene = folder.write(

@@ -1520,12 +1520,14 @@ var LightList = class {
   off() {
     return this.boxes.filter((b) => !b.checked).map((b) => b.name);
   }
-  /** The lights that differ from the file. */
-  changes() {
+  /** The lights that differ from the file. `placed`: with the places of those that have not moved. */
+  changes(placed = false) {
     return this.lights.flatMap((light) => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const { position, direction, color, times } = values, sizes = chosenSizes(light, values);
+      const { color, times } = values, sizes = chosenSizes(light, values);
+      const position = values.position ?? (placed ? light.position : void 0);
+      const direction = values.direction ?? (placed ? light.direction : void 0);
       return [{
         name: light.name,
         ...light.position && position ? { position } : {},
@@ -1598,7 +1600,7 @@ var LightList = class {
     return this.open.has(name) ? [row2, this.fieldsOf(light, id)] : [row2];
   }
   fieldsOf(light, id) {
-    const fields = new LightFields(light, id, (values, mark) => this.edited(light.name, values, mark));
+    const fields = new LightFields(light, id, (values, mark) => this.edited(light, values, mark));
     fields.show(this.values.get(light.name));
     this.fields.set(light.name, fields);
     return fields.element;
@@ -1617,9 +1619,11 @@ var LightList = class {
     this.tell();
     this.listener.changed("lights", true);
   }
-  edited(name, values, mark) {
-    if (values) this.values.set(name, values);
-    else this.values.delete(name);
+  // A headlight that has only another colour still goes with the view.
+  edited(light, values, mark) {
+    const moved = (key) => values?.[key]?.some((x, i) => x !== light[key]?.[i]) ? values[key] : void 0;
+    if (values) this.values.set(light.name, { ...values, position: moved("position"), direction: moved("direction") });
+    else this.values.delete(light.name);
     this.tell();
     this.listener.changed("light", mark);
   }
@@ -1637,7 +1641,7 @@ var LightList = class {
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
     if (!changes.length) this.block.value = "// No light differs from the file.\n";
-    else void this.listener.blocks(changes).then((text) => this.block.value = text);
+    else void this.listener.blocks(this.changes(true)).then((text) => this.block.value = text);
   }
 };
 
@@ -2213,6 +2217,7 @@ var Viewer = class {
   // the server refused this page a place
   movedAt = -Infinity;
   // when the view was moved last
+  resting;
   shownAccelerator;
   described = "";
   // of the displayed picture
@@ -2349,17 +2354,24 @@ var Viewer = class {
     this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
     this.fitLights(scene);
   }
-  // A light that was added to the scene belongs to the camera, and may be left out by renderers that follow light.
+  // A light that was added to the scene belongs to the view, and may be left out by renderers that follow light.
   fitLights(scene) {
     const added = scene.added_light;
     if (!added) return;
     const follows = this.renders(this.controls.get("renderer"))?.follows_light;
     const without = follows && (!added.follows_light || this.controls.get("environment") !== "");
     const own = this.frame().headlight, lights = scene.lights.filter((l) => !without || l.name !== added.name);
-    this.controls.setLights(lights.map((l) => l.name === added.name && own ? own : l));
+    this.controls.setLights(lights.map((l) => l.name === added.name ? this.atView(own ?? l) : l));
+  }
+  // The headlight of a camera where the view is.
+  atView(light) {
+    const view = this.camera;
+    if (!view || view.isAt(this.frame())) return light;
+    return { ...light, ...light.position ? { position: view.eye } : {}, ...light.direction ? { direction: view.look } : {} };
   }
   see(camera) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
+    if (this.scene) this.fitLights(this.scene);
     this.changed();
   }
   chosen(key, before) {
@@ -2548,6 +2560,8 @@ var Viewer = class {
     if (mark) this.remember();
     change(this.camera);
     this.movedAt = performance.now();
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.scene && this.fitLights(this.scene), REST);
     this.changed();
   }
   goHome() {

@@ -169,13 +169,13 @@ bool has_vertex_materials(const NamedMesh& from) {
 
 /// The material of a face: where vertices have materials, that of its first vertex.
 std::string face_material(const NamedMesh& from, const std::array<std::uint32_t, 3>& face) {
-    if (!has_vertex_materials(from)) return one_line(from.material);
-    return one_line(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
+    if (!has_vertex_materials(from)) return one_name(from.material);
+    return one_name(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
 }
 
 void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
-    out += "o " + one_line(from.name) + '\n';
+    out += "o " + one_name(from.name) + '\n';
     append_vertices(from, out);
     const bool mirrored = mirrors(from.placement);
     const bool by_face = has_vertex_materials(from);
@@ -337,6 +337,24 @@ std::uint64_t triangles_that_floats_collapse(std::span<const NamedMesh> meshes) 
         }
     }
     return count;
+}
+
+double greatest_move_by_floats(std::span<const NamedMesh> meshes) {
+    // Covers the rounding of the distance itself.
+    constexpr double kRoundUp = 1.0 + 1e-15;
+    double greatest = 0.0;
+    for (const NamedMesh& from : meshes) {
+        for (const auto& t : from.mesh->triangles) {
+            for (const std::uint32_t i : t) {
+                const Vec3 p = from.placement.point(from.mesh->positions[i]);
+                // Volatile, because g++ 12 takes double(float(x)) for x where two are adjacent.
+                const volatile float x = float(p.x), y = float(p.y), z = float(p.z);
+                const double move = std::hypot(double(x) - p.x, double(y) - p.y, double(z) - p.z);
+                greatest = std::max(greatest, move);
+            }
+        }
+    }
+    return greatest * kRoundUp;
 }
 
 }  // namespace alhazen

@@ -68,5 +68,7 @@ struct MtlTexture {
 [[nodiscard]] std::string stl_bytes(std::span<const NamedMesh> meshes);
 /// The number of triangles of which floats make two corners one that are apart.
 [[nodiscard]] std::uint64_t triangles_that_floats_collapse(std::span<const NamedMesh> meshes);
+/// The greatest distance by which floats move a corner of a triangle, and so a point of it.
+[[nodiscard]] double greatest_move_by_floats(std::span<const NamedMesh> meshes);
 
 }  // namespace alhazen

@@ -46,7 +46,7 @@ class MtlWriter {
     std::string write(std::span<const Material> materials) {
         out_ = "# Alhazen\n";
         for (const Material& m : materials) {
-            name_ = one_line(m.name);
+            name_ = one_name(m.name);
             out_ += "newmtl " + name_ + '\n';
             const bool clear = scattering_of(m);
             color("Ke", "map_Ke", m.emission);

@@ -28,4 +28,14 @@ inline std::string one_line(std::string line) {
     return line;
 }
 
+/// The name of an object or a material, without what would begin a comment.
+inline std::string one_name(const std::string& text) {
+    std::string name = one_line(text);
+    if (name == "#" || name.starts_with("# ")) name.front() = '_';
+    for (std::size_t at = name.find(" #"); at != name.npos; at = name.find(" #", at + 1)) {
+        if (at + 2 == name.size() || name[at + 2] == ' ') name[at] = '_';
+    }
+    return name;
+}
+
 }  // namespace alhazen

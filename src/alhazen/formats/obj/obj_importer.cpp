@@ -57,6 +57,9 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
     if (diagnostics.error_count() != errors_before) return scene;
     const bool colored = !statements.colors.empty();
     const std::size_t points = statements.positions.size();
+    ObjMaterials materials(source, scene, diagnostics, colored);
+    materials.load(statements.libraries);
+    materials.unify(statements);
     std::vector<ObjSurface> surfaces = make_obj_surfaces(statements, file, diagnostics);
     if (diagnostics.error_count() != errors_before) return scene;
     std::vector<ObjPart> parts = make_obj_parts(statements, file, diagnostics);
@@ -65,8 +68,6 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
         report_no_faces(source, points, diagnostics);
         return scene;
     }
-    ObjMaterials materials(source, scene, diagnostics, colored);
-    materials.load(statements.libraries);
     const auto name_of = [&](const std::string& group, const std::string& material) {
         const std::string& name = group.empty() ? material : group;
         return name.empty() ? source.path.stem().string() : name;

@@ -110,6 +110,23 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
     return true;
 }
 
+void ObjMaterials::unify(ObjStatements& statements) const {
+    std::vector<std::uint32_t> first_of(statements.materials.size());
+    std::unordered_map<std::size_t, std::uint32_t> of_entry;
+    std::unordered_map<std::string, std::uint32_t> of_name;
+    for (std::uint32_t i = 0; i < first_of.size(); ++i) {
+        std::string& name = statements.materials[i];
+        const std::optional<std::size_t> entry = find_entry(name);
+        if (!entry_of_.contains(name)) name = obj_name_of(name);
+        first_of[i] = entry ? of_entry.try_emplace(*entry, i).first->second
+                            : of_name.try_emplace(name, i).first->second;
+    }
+    for (ObjRun& run : statements.runs) run.material = first_of[run.material];
+    for (ObjElement& element : statements.free_form.surfaces) {
+        element.material = first_of[element.material];
+    }
+}
+
 MaterialId ObjMaterials::use(const std::string& name, const FileLocation& where) {
     if (name.empty()) return grey();
     const auto [entry, fresh] = used_.try_emplace(name);
@@ -129,7 +146,7 @@ MaterialId ObjMaterials::use(const std::string& name, const FileLocation& where)
 /// Of a name with a comment the whole, else the part before it, on either side.
 std::optional<std::size_t> ObjMaterials::find_entry(const std::string& name) const {
     const std::string part = without_comment(name);
-    for (const std::string& key : {name, part}) {
+    for (const std::string& key : {name, obj_name_of(name), part}) {
         if (const auto found = entry_of_.find(key); found != entry_of_.end()) return found->second;
     }
     const auto found = entry_of_part_.find(part);
@@ -147,7 +164,8 @@ MaterialId ObjMaterials::grey() {
 
 MaterialId ObjMaterials::add(const MtlMaterial& m) {
     Material out;
-    out.name = m.name;
+    out.name = obj_name_of(m.name);
+    if (entry_of_.contains(out.name)) out.name = m.name;
     const bool says_nothing = !m.ka && !m.ks && !m.ke && !m.tf;
     const Rgb missing = says_nothing ? default_mesh_material(colored_).diffuse.color : Rgb{};
     out.diffuse = color(beside(m.kd, m.map_kd, missing), m.map_kd);

@@ -27,6 +27,8 @@ class ObjMaterials {
 
     /// Reads the files of the `mtllib` lines.
     void load(const std::vector<ObjLibrary>& libraries);
+    /// Makes one material of those whose names differ by a comment alone, at the first of them.
+    void unify(ObjStatements& statements) const;
     /// The material of this `usemtl` name, first given at `where`; added to the scene at its first
     /// use.
     MaterialId use(const std::string& name, const FileLocation& where);

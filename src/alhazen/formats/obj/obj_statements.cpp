@@ -320,7 +320,7 @@ class StatementReader {
     /// Reads an object or group name. An object ends the previous group; a group within an object
     /// is named after both.
     void read_name(bool object) {
-        std::string name = rest_of_line();
+        std::string name = obj_name_of(rest_of_line());
         if (object) object_ = name;
         if (!object && !object_.empty() && name != object_) {
             name = name.empty() ? object_ : object_ + "/" + name;
@@ -424,6 +424,18 @@ void ObjCorners::append(const std::vector<std::int32_t>& positions) {
 
 void ObjCorners::need_normals() {
     normal.resize(position.size(), -1);
+}
+
+std::string obj_name_of(std::string_view text) {
+    const auto blank_at = [&](std::size_t at) {
+        return at >= text.size() || TextCursor::is_blank(text[at]);
+    };
+    for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at + 1)) {
+        if (!blank_at(at - 1) || !blank_at(at + 1)) continue;
+        while (at > 0 && blank_at(at - 1)) --at;
+        return std::string(text.substr(0, at));
+    }
+    return std::string(text);
 }
 
 ObjStatements read_obj_statements(std::string_view bytes, const std::string& file,

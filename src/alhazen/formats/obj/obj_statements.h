@@ -108,6 +108,9 @@ struct ObjStatements {
     }
 };
 
+/// The name before a comment: before a `#` that is a word by itself. `wheel #2` is all name.
+[[nodiscard]] std::string obj_name_of(std::string_view text);
+
 /// Reads all statements. Stops after a limited number of errors; text without any OBJ statement is
 /// an error. Throws Error (Resource) beyond options.max_elements.
 [[nodiscard]] ObjStatements read_obj_statements(std::string_view bytes, const std::string& file,

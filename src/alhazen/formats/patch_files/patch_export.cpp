@@ -74,8 +74,8 @@ void append_bpt(const NamedSurface& surface, const PatchList& list, std::string&
 
 void append_obj_points(const NamedSurface& surface, const std::vector<Vec3>& points,
                        const std::vector<double>& weights, std::string& out) {
-    out += "o " + one_line(surface.name) + '\n';
-    if (const std::string material = one_line(surface.material); !material.empty()) {
+    out += "o " + one_name(surface.name) + '\n';
+    if (const std::string material = one_name(surface.material); !material.empty()) {
         out += "usemtl " + material + '\n';
     }
     for (std::size_t k = 0; k < points.size(); ++k) {

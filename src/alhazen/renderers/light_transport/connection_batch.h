@@ -2,8 +2,8 @@
 /// Light along connections between points, which are gathered and tested for occlusion together.
 ///
 /// Conventions: uncovered parts and thin sheets transmit light, tinted; refracting surfaces block
-/// it, since the connection is straight. If volumes scatter, boundaries without refraction transmit
-/// it into the next volume; so do the openings of partly covering boundaries. Single-sided surfaces
+/// it, since the connection is straight. Null boundaries (ScatterPoint) transmit it
+/// into the next volume; so do the openings of partly covering boundaries. Single-sided surfaces
 /// block light from both sides; only eye rays pass their backs.
 
 #include <memory>

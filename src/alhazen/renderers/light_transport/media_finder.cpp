@@ -189,7 +189,7 @@ void MediaFinder::Crossings::cross_stated(const ShadingPoint& at, bool endless) 
     if (!media.after) return;
     const MaterialSample after = medium_at(scene_, at.surface, *media.after);
     const Medium inside{part_number({at.surface.part, at.surface.instance}), after.index,
-                        after.absorption, static_cast<std::uint32_t>(*media.after)};
+                        after.absorption, static_cast<std::uint32_t>(*media.after), true};
     found_.all.enter(inside);
     if (endless) found_.endless.enter(inside);
 }

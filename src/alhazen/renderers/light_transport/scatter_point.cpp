@@ -29,6 +29,19 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
 }
 
+/// True if boundaries between volumes of the same index are passed straight at the surface: in
+/// scenes with scattering volumes, or if its materials may have the index of the air.
+bool may_be_null(const Scene& scene, const Surface& surface) {
+    if (scene.has_scattering) return true;
+    for (std::size_t i = 0; i < std::size_t(surface.material_count); ++i) {
+        if (!may_pass_straight(scene.material_of(surface, i),
+                               scene.conventions.shading.air_index)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// BsdfPlace::mirrored, for materials that depend on it. By the sides of the interpolated normal: a
 /// path from the other direction then sees the same grooves, whichever normals a map gives.
 bool is_mirrored(const Scene& scene, const Surface& surface, const Vec3& view) {
@@ -84,7 +97,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     if (others != nullptr) others_ = *others;
     media_known_ = point.behind.known;
     if (media_known_) {
+        before_inside_ = surface.media.before.has_value();
         behind_inside_ = point.behind.inside;
+        inside_.stated = true;
         inside_.absorption = point.behind.absorption;
         if (const auto& after = surface.media.after) {
             inside_.material = static_cast<std::uint32_t>(*after);
@@ -106,9 +121,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         set_bsdf(scene, surface, place, known);
     }
     set_coat(scene, point, tangent);
-    null_ = scene.has_scattering && !coat_ && all == Spectrum::all(1) && !thin_ &&
+    null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
             material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
-            bsdf().refracts_alone();
+            bsdf().refracts_alone() && may_be_null(scene, surface);
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
@@ -131,13 +146,18 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     const double air = scene.conventions.shading.air_index;
     const auto material = [&](std::uint32_t i) -> const Material& { return scene.materials[i]; };
     if (media_known_) {
-        if (!waves.is_spectral()) return Spectrum::all(point.behind.eta);
+        const SurfaceMedia& stated = point.surface.media;
+        const Medium* const around = stated.before && stated.after ? nullptr
+                                     : stated.before               ? media.without_stated()
+                                                                   : media.here();
+        if (!waves.is_spectral() && around == nullptr) return Spectrum::all(point.behind.eta);
         const auto index = [&](const std::optional<MaterialId>& id) {
-            if (!id) return Spectrum::all(air);
+            if (!id && around == nullptr) return Spectrum::all(air);
+            if (!id) return index_of(material(around->material), around->index, waves);
             const Material& m = material(static_cast<std::uint32_t>(*id));
             return index_of(m, m.index.value, waves);
         };
-        return over(index(point.surface.media.before), index(point.surface.media.after));
+        return over(index(stated.before), index(stated.after));
     }
     const double own = point.material->index;
     if (thin_ || !(own > 0.0)) return {};
@@ -402,7 +422,7 @@ double ScatterPoint::importance_correction(const Vec3& direction) const {
 void ScatterPoint::cross(MediumStack& media) const {
     if (thin_) return;
     if (media_known_) {
-        media = {};
+        if (before_inside_) media.leave_stated();
         if (behind_inside_) media.enter(inside_);
     } else {
         // Volumes are left before others are entered: new ones are innermost.

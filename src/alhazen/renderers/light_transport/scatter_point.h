@@ -8,8 +8,9 @@
 /// scattered. The normal of a map is turned to a viewer (mapped_normal_seen): light is scattered by
 /// that which the eye sees, in whichever direction a path goes, and each density is that of the
 /// normal that the path before the point sees. A clear coat with another normal (TiltedCoat) has a
-/// frame of its own. In scenes with scattering volumes, a boundary between volumes of the same
-/// index is a null boundary: it is passed straight, as thin sheets are.
+/// frame of its own. In scenes with scattering volumes, and at materials of the index of the air,
+/// a boundary between volumes of the same index is a null boundary: it is passed straight, as thin
+/// sheets are.
 
 #include <array>
 #include <optional>
@@ -173,6 +174,7 @@ class ScatterPoint {
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool null_ = false;
     bool media_known_ = false;  ///< the media are stated by a solid
+    bool before_inside_ = false;
     bool behind_inside_ = false;
 };
 

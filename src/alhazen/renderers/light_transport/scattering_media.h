@@ -32,16 +32,23 @@ class ScatteringMedia {
   public:
     explicit ScatteringMedia(const Scene& scene)
         : scene_(scene),
-          open_(std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-              return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
-          })) {}
+          open_(std::any_of(scene.materials.begin(), scene.materials.end(),
+                            [](const Material& m) {
+                                return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
+                            })),
+          straight_(
+              std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+                  return may_pass_straight(m, scene.conventions.shading.air_index);
+              })) {}
 
     /// True if some medium scatters.
     [[nodiscard]] bool any() const { return scene_.has_scattering; }
     /// True if some boundary of a volume may have a coverage below 1.
     [[nodiscard]] bool has_open_boundaries() const { return open_; }
+    /// True if some boundary of a volume may be passed straight (ScatterPoint::is_null_boundary).
+    [[nodiscard]] bool have_null_boundaries() const { return any() || straight_; }
     /// True if a straight ray may pass through more than one volume.
-    [[nodiscard]] bool are_followed() const { return any() || open_; }
+    [[nodiscard]] bool are_followed() const { return any() || open_ || straight_; }
     /// The scattering of a medium; null: none.
     [[nodiscard]] const VolumeScattering* in(const Medium& medium) const {
         if (!any()) return nullptr;
@@ -58,7 +65,7 @@ class ScatteringMedia {
 
   private:
     const Scene& scene_;
-    bool open_;
+    bool open_, straight_;
 };
 
 }  // namespace alhazen

@@ -139,7 +139,8 @@ bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
                               point_);
             vertex_.set(scene_, point_, media, at_->waves);
             v.eta = vertex_.singular(Transport::Radiance).eta;
-            if (!(v.eta > 0.0)) return false;
+            // Shadow rays find what passes a null boundary.
+            if (!(v.eta > 0.0) || vertex_.is_null_boundary()) return false;
             vertex_.cross(media);
         }
         indices_.eta[k] = v.eta;

@@ -181,8 +181,8 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
                       Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
-    // With scattering volumes, a null boundary is passed without a scattering.
-    if (point.material->unlit || (deepest && !media_.any())) {
+    // A null boundary is passed without a scattering.
+    if (point.material->unlit || (deepest && !media_.have_null_boundaries())) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }

@@ -112,7 +112,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         const ShadingPoint& point = next_.point();
         sum += emitted(at);
         const bool deepest = at.last.scatterings >= settings_.depth;
-        if (point.material->unlit || (deepest && !next_.media().any())) return;
+        if (point.material->unlit || (deepest && !next_.media().have_null_boundaries())) return;
         scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others());
         if (deepest && !scatter_.is_null_boundary()) return;
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);

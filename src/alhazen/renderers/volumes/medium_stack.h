@@ -3,8 +3,9 @@
 ///
 /// Conventions: a volume is identified by the part that bounds it, so that overlapping volumes may
 /// be left in any order. Leaving a part that was not entered leaves the innermost volume of its
-/// material: a boundary may consist of several parts. Media stated by a solid replace the stack.
-/// Beyond kMost volumes around a point, the outermost are dropped.
+/// material: a boundary may consist of several parts. A solid of several media, which states those
+/// on both sides of its surfaces, has one place in the stack. Beyond kMost volumes around a point,
+/// the outermost are dropped.
 
 #include <cstdint>
 
@@ -25,6 +26,7 @@ struct Medium {
     double index = 1;
     Rgb absorption;  ///< per unit length: transmittance is exp(-absorption * length)
     std::uint32_t material = 0;
+    bool stated = false;  ///< by a solid of several media
 };
 
 class MediumStack {
@@ -51,6 +53,14 @@ class MediumStack {
     [[nodiscard]] const Medium* within(const Medium& volume) const {
         return place_of(volume) + 1 < media_.size() ? here() : nullptr;
     }
+    /// The innermost volume outside of the solid of several media that is left; null: none.
+    [[nodiscard]] const Medium* without_stated() const {
+        const std::size_t left = place_of_stated();
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if (i != left) return &media_[i].value;
+        }
+        return nullptr;
+    }
     void enter(const Medium& medium) {
         if (media_.full()) remove(0);
         media_.push_back(medium);
@@ -70,7 +80,18 @@ class MediumStack {
         if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
     }
 
+    /// Leaves the innermost medium of a solid of several media; nothing if there is none.
+    void leave_stated() {
+        if (const std::size_t i = place_of_stated(); i < media_.size()) remove(i);
+    }
+
   private:
+    [[nodiscard]] std::size_t place_of_stated() const {
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if (media_[i].value.stated) return i;
+        }
+        return media_.size();
+    }
     [[nodiscard]] std::size_t place_of(const Medium& volume) const {
         for (std::size_t i = media_.size(); i-- > 0;) {
             if (media_[i].value.part == volume.part) return i;

@@ -16,6 +16,19 @@ namespace alhazen {
     return m.transmissive.texture != kNoTexture || !m.transmissive.color.is_black();
 }
 
+/// True if a surface of the material may bound a volume of the index of the air without any other
+/// effect: light passes it straight.
+[[nodiscard]] inline bool may_pass_straight(const Material& m, double air) {
+    if (!may_bound_volume(m) || (m.index.texture == kNoTexture && m.index.value != air)) {
+        return false;
+    }
+    if (m.dielectric || m.metallic_roughness) return true;
+    const auto none = [](const ColorInput& input) {
+        return input.texture == kNoTexture && input.color.is_black();
+    };
+    return none(m.diffuse) && none(m.reflective);
+}
+
 /// The volume that a surface bounds.
 [[nodiscard]] inline Medium volume_of(const Scene& scene, const ShadingPoint& point) {
     const Surface& surface = point.surface;

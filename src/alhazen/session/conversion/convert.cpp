@@ -261,6 +261,8 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     if (suffix == ".stl") {
         bytes = stl_bytes(meshes);
         output.report().collapsed = triangles_that_floats_collapse(meshes);
+        output.report().moved = greatest_move_by_floats(meshes);
+        output.report().tolerance = options.tolerance;
     } else if (suffix == ".obj") {
         output.report().mixed_faces = faces_of_several_materials(meshes);
         output.report().lost_mapped_tangents = meshes_that_use_tangents(description, names, meshes);
@@ -309,6 +311,11 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
 
 }  // namespace
 
+std::string rounded_up(double value) {
+    // Three digits are within 1/200 of the value.
+    return fmt::format("{:.3g}", 1.00502 * value);
+}
+
 std::vector<std::string> losses_of(const ConvertReport& report) {
     std::vector<std::string> lines;
     // `{}` of the sentence is the number of what is lost.
@@ -345,6 +352,12 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
     lose(report.collapsed, "triangle", "triangles",
          "an STL holds floats: corners of {} come together, which lose their area (.alhazen, .ply "
          "and .obj keep them apart)");
+    if (report.tolerance > 0.0 && report.moved > report.tolerance) {
+        lines.push_back(fmt::format(
+            "an STL holds floats: corners move by up to {}, more than the tolerance of {:g} "
+            "(.alhazen, .ply and .obj keep them in place)",
+            rounded_up(report.moved), report.tolerance));
+    }
     for (const std::string& what : report.lost) {
         lines.push_back("the MTL file cannot express " + what);
     }

@@ -25,7 +25,8 @@ struct ConvertOptions {
     bool meshes_only = false;
     /// How the caller's user sets `meshes_only`, advised by the refusal; "": not at all.
     std::string meshes_only_setting = "--meshes-only";
-    bool strict = false;  ///< refuse the scene if the file cannot hold all of the parts written
+    double tolerance = 0.0;  ///< that of the triangles which replace shapes; 0: there are none
+    bool strict = false;     ///< refuse the scene if the file cannot hold all of the parts written
     std::uint64_t max_triangles = 400'000'000;  ///< limit of a mesh file, instances expanded
 };
 
@@ -44,10 +45,15 @@ struct ConvertReport {
     std::uint64_t lost_alpha = 0, clamped_colors = 0;
     std::uint64_t unit_normals = 0;  ///< OBJ: placed meshes whose normals lose their lengths
     std::uint64_t collapsed = 0;     ///< STL: triangles of which two corners become one
-    std::string left_out;            ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
+    double moved = 0;      ///< STL: the greatest distance by which its floats move a corner
+    double tolerance = 0;  ///< of the options
+    std::string left_out;  ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
     /// OBJ: material properties that MTL cannot express, one line each.
     std::vector<std::string> lost;
 };
+
+/// Three digits of a positive number, not below it.
+[[nodiscard]] std::string rounded_up(double value);
 
 /// What the file does not hold of the parts that it has, a line for each kind.
 [[nodiscard]] std::vector<std::string> losses_of(const ConvertReport& report);

@@ -147,6 +147,26 @@ TEST(MeshExport, ObjAndStlGiveTheSameTrianglesBack) {
     EXPECT_EQ(triangle_set(solids[0].mesh), triangle_set(mesh));
 }
 
+TEST(MeshExport, ANameInAnObjBeginsNoComment) {
+    const TriangleMesh mesh = ball(1);
+    const auto back = [&](const std::string& name) {
+        const NamedMesh named{name, &mesh, {}, name};
+        const std::string text = obj_text({&named, 1});
+        Diagnostics found;
+        const SceneDescription scene = import_text(text, "a.obj", found);
+        Material material;
+        material.name = name;
+        std::vector<std::string> lost;
+        const std::string in_mtl = read_mtl(mtl_text({&material, 1}, {}, lost), "", found)[0].name;
+        EXPECT_NE(text.find("usemtl " + in_mtl + '\n'), std::string::npos) << text;
+        return scene.meshes.at(0).name;
+    };
+    EXPECT_EQ(back("wheel # left #"), "wheel_# left_#");
+    EXPECT_EQ(back("# left"), "_ left");
+    EXPECT_EQ(back("#"), "_");
+    EXPECT_EQ(back("wheel #2 a#"), "wheel #2 a#");
+}
+
 TEST(MeshExport, MirroredPlacementsKeepTheOutsideOutside) {
     const TriangleMesh mesh = ball(2);
     const double volume = signed_volume(mesh);

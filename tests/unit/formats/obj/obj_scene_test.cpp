@@ -343,6 +343,37 @@ TEST(ObjScene, ACommentBehindTheNameOfAMaterialIsNoPartOfItUnlessItsNameHasIt) {
     EXPECT_EQ(text_of(found), "");
 }
 
+TEST(ObjScene, NamesThatDifferByACommentAreOnePartOfOneMaterial) {
+    const auto parts = [](const std::string& names, const std::string& mtl) {
+        const TemporaryFolder folder;
+        folder.write("a.mtl", mtl);
+        Diagnostics found;
+        const SceneDescription scene =
+            scene_of("mtllib a.mtl\n" + kSquare + names, found, folder.path());
+        std::string text = std::to_string(scene.materials.size()) + ":";
+        for (const MeshDescription& mesh : scene.meshes) {
+            text += " '" + mesh.name + "' " + std::to_string(mesh.mesh->triangles.size());
+        }
+        return text;
+    };
+    const std::string face = "f 1 2 3\n", red = "newmtl m\nKd 1 0 0\n";
+    const std::string two = "usemtl m # a\n" + face + "usemtl m\t# b\n" + face;
+    EXPECT_EQ(parts(two, red), "1: 'm' 2");
+    EXPECT_EQ(parts(two, "newmtl m # c\nKd 1 0 0\n"), "1: 'm' 2");
+    EXPECT_EQ(parts(two, "newmtl m\nnewmtl m # a\n"), "2: 'm # a' 1 'm' 1");
+    EXPECT_EQ(parts(two, "newmtl n\n"), "1: 'm' 2");
+    EXPECT_EQ(parts("usemtl # m\n" + face, red), "1: 'a' 1");
+    for (const std::string s : {"g", "o"}) {
+        EXPECT_EQ(parts(s + " wheel # left\n" + face + s + " wheel  #\n" + face, red),
+                  "1: 'wheel' 2");
+        EXPECT_EQ(parts(s + " wheel #1\n" + face + s + " wheel #2\n" + face + s + " a#\n" + face +
+                            s + " # c\n" + face,
+                        red),
+                  "1: 'wheel #1' 1 'wheel #2' 1 'a#' 1 'a' 1");
+    }
+    EXPECT_EQ(parts("o car # x\ng wheel # y\n" + face, red), "1: 'car/wheel' 1");
+}
+
 TEST(ObjScene, WhatALibraryHasThatIsUnknownOrOutOfRangeIsListedOnce) {
     const auto finding = [](const std::string& mtl) {
         Diagnostics found;

@@ -251,12 +251,69 @@ TEST(ConnectedVolumes, NothingIsCrossedWithAnOpaqueFace) {
     }
 }
 
-TEST(ConnectedVolumes, SceneswhereNothingScattersKeepTheirBoundaries) {
-    SceneMaker maker;
-    maker.add(BoxShape{{0, -9, -9}, {10, 9, 9}}, maker.material(absorbing(kAbsorbs)));
-    const Scene scene = maker.compile();
-    EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).share.is_black());
-    EXPECT_NEAR(pass(scene, {1, 0.1, 0.2}, {3, 0.1, 0.2}).share.a, std::exp(-1.4), 1e-12);
+TEST(ConnectedVolumes, WhereNothingScattersVolumesOfTheIndexOfTheAirLetLightThrough) {
+    const auto block = [](const Material& material, double air = 1.0) {
+        SceneMaker maker;
+        maker.description().conventions.shading.air_index = air;
+        maker.add(BoxShape{{0, -9, -9}, {10, 9, 9}}, maker.material(material));
+        return maker;
+    };
+    const Vec3 before{-3, 0.1, 0.2}, in{1, 0.1, 0.2}, behind{12, 0.1, 0.2};
+    for (const double index : {1.0, kNearlyOne, 1.3}) {
+        for (const double air : {1.0, 1.3}) {
+            const Scene scene = block(absorbing(kAbsorbs, index), air).compile();
+            const Passed into = pass(scene, before, in), through = pass(scene, before, behind);
+            if (index != air) {
+                EXPECT_TRUE(into.share.is_black()) << index;
+                EXPECT_TRUE(through.in_batch.is_black()) << index;
+            } else {
+                EXPECT_NEAR(into.share.a, std::exp(-0.7), 1e-12);
+                EXPECT_NEAR(into.in_batch.c, std::exp(-0.4), 1e-12);
+                EXPECT_NEAR(through.share.b, std::exp(-1.0), 1e-12);
+                EXPECT_TRUE(into.same && through.same);
+            }
+            EXPECT_NEAR(pass(scene, in, {3, 0.1, 0.2}).share.a, std::exp(-1.4), 1e-12);
+        }
+    }
+    Material tinted, matt_too = matt({0.5, 0.5, 0.5});
+    tinted.diffuse.color = {};
+    tinted.transmissive.color = matt_too.transmissive.color = {0.5, 0.4, 0.3};
+    // Each of the two faces takes its share.
+    EXPECT_NEAR(pass(block(tinted).compile(), before, behind).share.a, 0.25, 1e-12);
+    EXPECT_TRUE(pass(block(matt_too).compile(), before, behind).share.is_black());
+    SceneMaker nested = block(absorbing(kAbsorbs));
+    nested.add(BoxShape{{2, -8, -8}, {4, 8, 8}}, nested.material(absorbing(kFog)));
+    nested.add(BoxShape{{4, -8, -8}, {5, 8, 8}}, nested.material(absorbing(kDenser)));
+    EXPECT_NEAR(pass(nested.compile(), before, behind).share.b, std::exp(-0.7 - 0.6 - 0.6), 1e-12);
+}
+
+/// A block around a solid of two media side by side.
+TEST(ConnectedVolumes, ASolidOfSeveralMediaLeavesTheVolumeAroundItAsItWas) {
+    for (const double index : {1.0, 1.3}) {
+        SceneMaker maker;
+        maker.add(BoxShape{{0, -9, -9}, {10, 9, 9}}, maker.material(fog(kAbsorbs, kFog, 0, index)));
+        const ObjectIndex solid = maker.object("solid");
+        maker.description().objects.back().combine = Combine::Union;
+        const auto add = [&](double from, double to, const Rgb& absorption) {
+            maker.add(BoxShape{{from, -8, -8}, {to, 8, 8}},
+                      maker.material(absorbing(absorption, index)), {}, solid);
+        };
+        add(2, 4, kFog);
+        add(4, 7, kDenser);
+        maker.add(solid);
+        const Scene scene = maker.compile();
+        const double before = index == 1.0 ? -3 : 0.5, behind = index == 1.0 ? 13 : 9.5;
+        const double around = (index == 1.0 ? 10 : 9) - 5;
+        const Passed through = pass(scene, {before, 0.1, 0.2}, {behind, 0.1, 0.2});
+        EXPECT_TRUE(through.same) << index;
+        for (int i = 0; i < 3; ++i) {
+            const double lost = around * (kAbsorbs[i] + kFog[i]) + 2 * kFog[i] + 3 * kDenser[i];
+            EXPECT_NEAR(through.share[i], std::exp(-lost), 1e-12) << index << " " << i;
+        }
+        const Passed within = pass(scene, {3, 0.1, 0.2}, {8, 0.1, 0.2});
+        EXPECT_NEAR(within.share.a, std::exp(-0.1 - 1.5 - 0.8), 1e-12) << index;
+        EXPECT_TRUE(within.same) << index;
+    }
 }
 
 TEST(ConnectedVolumes, SheetsAndCutOutsInVolumesLetLightThrough) {
