@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,7 @@ Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects)
     Chosen chosen;
     for (const SolidId id : solids.select(objects)) {
         const Box3 box = IsolatedSolid(solids.solids(), id).box();
+        if (box.empty()) continue;
         if (!box.bounded()) {
             tell("alhazen: '{}' is not bounded: it has neither area nor outline\n",
                  escape_controls(solids.name(id)));
@@ -100,7 +102,9 @@ std::string outlines_of(const SolidScene& solids, const Scene& scene, const Plan
     Box3 box;
     for (const Cut& cut : cuts) box.include(IsolatedSolid(solids.solids(), cut.solid).box());
     if (box.empty()) box = chosen.box;
-    const double usual = box.empty() ? 1e-4 : 1e-4 * length(box.size());
+    // That of small solids far away is at the rounding of their coordinates.
+    const double usual =
+        box.empty() ? 1e-4 : std::max({1e-4 * length(box.size()), least_tolerance(box), 1e-300});
     args.svg_options.tolerance = args.tolerance.value_or(usual);
     args.svg_options.around = box;
     std::vector<SectionLayer> layers;
@@ -201,7 +205,8 @@ void run_section(SectionArguments& args, int& exit_status) {
     const auto n = parse_numbers(args.plane, {4}, "a plane: nx,ny,nz,d");
     const SectionPlane plane{{n[0], n[1], n[2]}, n[3]};
     const PlaneFrame frame = frame_of(plane);
-    (void)parse_size(args.size);
+    const Size size = parse_size(args.size);
+    check_picture_size(size.width, size.height);
     if (!args.output.empty()) check_image_suffix(args.output);
     if (!args.svg.empty()) (void)section_svg({}, frame, args.svg_options);  // checks the unit
     std::vector<std::filesystem::path> outputs;

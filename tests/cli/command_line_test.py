@@ -552,6 +552,19 @@ plane { point = (0, 0, -9) }
         result = run("section", scene, "--plane", "0,0,1,0", "--svg", self.path("fine.svg"), "--tolerance", "1e-12")
         self.assertEqual(result.returncode, 2)
         self.assertIn("expected at least", result.stderr)
+        result = run("section", scene, "--plane", "0,0,1,0", "-o", self.path("x.png"), "--size", "1000000000x1000000000")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("out of range", result.stderr)
+
+    def test_a_section_passes_over_solids_of_nothing_and_of_a_point(self):
+        scene = self.write("points.alhazen", """alhazen 1
+            intersection "nothing" { sphere { } sphere { center = (5, 0, 0) } }
+            intersection "point" { box { lo = (0, 0, 0); hi = (1, 1, 1) } box { lo = (1, 1, 1); hi = (2, 2, 2) } }
+            box "far" { lo = (1e6, 1, 1); hi = (1000000.000001, 1.000001, 1.000001) }""")
+        for objects in (["nothing"], ["point"], ["far"], []):
+            result = run("section", scene, *objects, "--plane", "0,0,1,1", "--svg", self.path("points.svg"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertNotIn("not bounded", result.stderr)
 
     def test_info_tells_areas_volumes_and_cameras(self):
         mesh = self.write("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) +

@@ -126,6 +126,11 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
         if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {
             precise_edge_functions(va, vb, vc, to_unit_size(va.x, vb.x, vc.x),
                                    to_unit_size(va.y, vb.y, vc.y), eu, ev, ew);
+            // A vertex may be far nearer to the ray than the others.
+            const double unit = to_unit_size(eu, ev, ew);
+            eu *= unit;
+            ev *= unit;
+            ew *= unit;
         }
     }
     const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);

@@ -116,6 +116,8 @@ struct MaterialDescription {
 
 /// Largest side of a picture, pixels.
 inline constexpr int kMaxPictureSide = 65536;
+/// Throws Error (Usage) unless both sides are 1 to kMaxPictureSide.
+void check_picture_size(int width, int height);
 
 /// Picture settings of the file; the command line overrides them.
 struct PictureSettings {

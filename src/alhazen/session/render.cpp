@@ -22,6 +22,11 @@ constexpr int kSpdRays = 513;
 /// Bounds the recursion over generations to the stack size available in every thread.
 constexpr int kMaxDepth = 1000;
 
+/// A side of a picture in whole pixels, at least 1. One that is too long stays so.
+int whole_side(double pixels) {
+    return static_cast<int>(std::lround(std::clamp(pixels, 1.0, 1e9)));
+}
+
 /// Refuses options that would change the counts of a protocol.
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
@@ -177,14 +182,9 @@ FrameSize frame_size(const PictureSettings& picture, const RenderOptions& option
         height = picture.height;
     }
     if (!width && !height) height = kDefaultHeight;
-    if (!width) width = std::max(1, static_cast<int>(std::lround(*height * aspect)));
-    if (!height) height = std::max(1, static_cast<int>(std::lround(*width / aspect)));
-    if (*width < 1 || *height < 1 || *width > kMaxPictureSide || *height > kMaxPictureSide) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("picture size {}x{} is out of range; each side must be "
-                                "1 to {} pixels",
-                                *width, *height, kMaxPictureSide));
-    }
+    if (!width) width = whole_side(*height * aspect);
+    if (!height) height = whole_side(*width / aspect);
+    check_picture_size(*width, *height);
     return {*width, *height};
 }
 

@@ -195,6 +195,7 @@ Rgb color_of(const Scene& scene, MaterialId material) {
 Image section_picture(const SolidScene& solids, const Scene& scene, const SectionPlane& plane,
                       const SectionView& view) {
     const PlaneFrame frame = frame_of(plane);
+    check_picture_size(view.width, view.height);
     return SectionPainter(solids, scene, frame, view).paint();
 }
 

@@ -54,9 +54,9 @@ class ContourFollower {
         // Irrational offsets, so that grid lines are unlikely to run along an edge of the outline.
         x0_ = x.lo - 0.6180339887 * cell;
         y0_ = y.lo - 0.7320508076 * cell;
+        if (!(cell > 0.0)) return;
         columns_ = static_cast<std::int64_t>(std::ceil((x.hi - x0_) / cell)) + 1;
         rows_ = static_cast<std::int64_t>(std::ceil((y.hi - y0_) / cell)) + 1;
-        if (!(cell > 0.0)) columns_ = rows_ = 0;
     }
 
     SectionOutlines run() {

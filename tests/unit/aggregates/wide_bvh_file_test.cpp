@@ -29,7 +29,7 @@ using testing::uniform;
 using testing::uniform_point;
 
 // Offsets of the format that the tests modify.
-constexpr std::size_t kHeader = 512, kCounts = 32, kElementBytes = 160, kArrays = 16;
+constexpr std::size_t kHeader = 512, kCounts = 32, kElementBytes = 160, kArrays = 16, kFlag = 304;
 
 /// A table with as many boxes as discs.
 PrimitiveTable table_of(int triangles, int spheres, int discs, int planes, std::uint64_t seed = 1) {
@@ -352,6 +352,24 @@ TEST(WideBvhFile, CountsThatAreTooLargeAreRefused) {
             reseal(forged);
             EXPECT_NE(refusal(table, folder.write("forged", forged)), "") << array;
         }
+    }
+}
+
+TEST(WideBvhFile, AFlagOfNeitherYesNorNoIsRefused) {
+    const ScratchFolder folder;
+    const PrimitiveTable table = table_of(20, 3, 2, 1);
+    const auto path = folder.path() / "tree";
+    WideBvhAggregate(table).save(path);
+    const std::string bytes = read_file(path);
+    ASSERT_EQ(bytes.at(kFlag), 1);
+    for (int value = 0; value < 256; ++value) {
+        if (value == 1) continue;
+        std::string forged = bytes;
+        forged[kFlag] = static_cast<char>(value);
+        reseal(forged);
+        EXPECT_NE(refusal(table, folder.write("forged", forged)).find("not sound"),
+                  std::string::npos)
+            << value;
     }
 }
 

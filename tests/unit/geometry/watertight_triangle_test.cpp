@@ -154,6 +154,19 @@ TEST(WatertightTriangle, TheProductsOfTinyWeightsDoNotUnderflow) {
     EXPECT_DOUBLE_EQ(hit.v, 0.5);
 }
 
+TEST(WatertightTriangle, AWeightOfTheLeastNumberPutsTheHitWhereItIs) {
+    // The ray passes through the second vertex, and by the first at a distance of 2^-1074: the only
+    // weight that is not zero is the least number, whose product with a length below 1 is 0.
+    const Vec3 a{0, 0, 0x1p-1074}, b{0x1p-127, 0x1p-149, 0}, c{1, 1, -1};
+    const Vec3 direction{0.5, -0.5, 0};
+    const Ray ray = line({-0.5, 0.5, 0}, direction);
+    ShapeHit hit;
+    ASSERT_TRUE(intersect_triangle(ray, RayShear(direction), a, b, c, hit));
+    EXPECT_DOUBLE_EQ(hit.t, 1);
+    EXPECT_DOUBLE_EQ(hit.u, 1);
+    EXPECT_DOUBLE_EQ(hit.v, 0);
+}
+
 TEST(EdgeSign, IsAntisymmetricAndNeverZeroForDistinctPoints) {
     Random random(106);
     int ties = 0;

@@ -10,6 +10,7 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/session/technical/line_chains.h"
+#include "alhazen/session/technical/mesh_edges.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -326,6 +327,18 @@ TEST(TechnicalDrawing, EdgesOfAnObjectInAFaceOfAnotherAreDrawnOnce) {
 TEST(TechnicalDrawing, ItNeedsGeometry) {
     LoadedScene loaded;
     EXPECT_THROW((void)technical_drawing(loaded, {}, {.tolerance = 0.1}), Error);
+}
+
+TEST(MeshEdges, AreThoseOfASmallMeshFarAway) {
+    // Its cells have larger numbers than integers.
+    const Vec3 corner{1e8, 0, 0}, right{1e-6, 0, 0}, up{0, 1e-6, 0};
+    TriangleMesh square;
+    square.positions = {corner, corner + right,      corner + right + up,
+                        corner, corner + right + up, corner + up};
+    square.triangles = {{0, 1, 2}, {3, 4, 5}};
+    const auto edges = mesh_edges(square, {corner + Vec3{0, 0, 1}}, MeshSource::Itself);
+    EXPECT_EQ(edges.size(), 4u);
+    for (const MeshEdge& edge : edges) EXPECT_EQ(edge.kind, MeshEdge::Kind::Border);
 }
 
 TEST(LineChains, JoinWhatMeets) {

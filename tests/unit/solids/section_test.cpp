@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
@@ -166,6 +167,20 @@ TEST(Section, ThePictureShowsTheCutInTheColourOfTheSolidAndWhatLiesBehind) {
     EXPECT_TRUE(inked);
     const Image above = section_picture(solids, scene, {{0, 0, -1}, 5}, {.width = 12, .height = 6});
     EXPECT_EQ(above.rgb(6, 3).b, 1);
+}
+
+TEST(Section, PicturesOfNoOrTooManyPixelsAreRefused) {
+    SceneMaker maker;
+    maker.add(Sphere{});
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    for (const auto& [width, height] :
+         {std::pair{0, 5}, std::pair{5, -1}, std::pair{1 << 30, 1 << 30}}) {
+        EXPECT_THROW((void)section_picture(solids, scene, {{0, 0, 1}, 0},
+                                           {.width = width, .height = height}),
+                     Error)
+            << width;
+    }
 }
 
 TEST(Section, MediaHaveTheirColoursAndTheWallBetweenThemIsNoOutline) {

@@ -126,6 +126,13 @@ void check_header(const std::filesystem::path& path, const Header& header, std::
     if (expected != file_bytes) refuse(path, "the file is longer than the tree in it");
 }
 
+/// False if the byte of the frame's flag is that of no bool, which must not be read.
+bool has_flag(std::span<const std::byte> file) {
+    constexpr std::size_t kFlagAt = offsetof(Header, frame) + offsetof(LocalFrame, usual);
+    static_assert(sizeof(LocalFrame::usual) == 1);
+    return file[kFlagAt] <= std::byte{1};
+}
+
 /// Returns the arrays of a mapped file one after another.
 class ArrayReader {
   public:
@@ -230,6 +237,7 @@ StoredWideBvh load_wide_bvh(const std::filesystem::path& path, const PrimitiveTa
     if (header.fingerprint != table_fingerprint(table)) {
         refuse(path, "the tree was built over other geometry");
     }
+    if (!has_flag(file->bytes())) refuse(path, "the stored tree is not sound: its frame is none");
     StoredWideBvh tree;
     tree.layout.frame = header.frame;
     tree.layout.tree.root = header.root;

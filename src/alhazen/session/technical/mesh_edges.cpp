@@ -53,11 +53,10 @@ class PlaceNumbers {
     }
 
   private:
-    using Cell = std::array<long long, 3>;
+    /// Whole numbers, which may be larger than integers.
+    using Cell = std::array<double, 3>;
     [[nodiscard]] Cell cell(const Vec3& p) const {
-        const auto along = [&](double x) {
-            return static_cast<long long>(std::floor(x / (4.0 * same_)));
-        };
+        const auto along = [&](double x) { return std::floor(x / (4.0 * same_)); };
         return {along(p.x), along(p.y), along(p.z)};
     }
 
