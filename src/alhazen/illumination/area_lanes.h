@@ -26,6 +26,9 @@ struct alignas(64) FlatEmitter {
 
     FlatEmitter() = default;
     FlatEmitter(const Emitter& e, std::uint32_t radiance_number);
+    [[nodiscard]] EmittingTriangle triangle() const {
+        return {corner, x, y, normal, density, two_sided};
+    }
 };
 static_assert(sizeof(FlatEmitter) == 128);
 

@@ -46,15 +46,18 @@ Vec3 outer_normal(const Emitter& e, const Vec3& n) {
 
 // ---- flat forms
 
-EmitterSample seen_by_area(const Emitter& e, const Vec3& from, const EmitterPoint& p) {
+EmitterSample seen_by_area(bool two_sided, const Vec3& from, const EmitterPoint& p) {
     const Vec3 offset = p.point - from;
     const double squared = length_squared(offset), distance = std::sqrt(squared);
     if (!(distance > 0.0)) return {};
     const Vec3 to_light = offset / distance;
     double cosine = -dot(to_light, p.normal);
-    if (e.two_sided) cosine = std::abs(cosine);
+    if (two_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0)) return {};
     return {to_light, distance, p.density * squared / cosine, p.parameters};
+}
+EmitterSample seen_by_area(const Emitter& e, const Vec3& from, const EmitterPoint& p) {
+    return seen_by_area(e.two_sided, from, p);
 }
 
 double by_solid_angle(double area_density, const EmitterHit& hit) {
@@ -67,26 +70,26 @@ SphericalTriangle triangle_from(const Emitter& e, const Vec3& from) {
     return {a, a + axis_x(e), a + axis_y(e)};
 }
 
-/// The weights of the second and third corner of the triangle at a point of its plane.
-Vec2 weights_at(const Emitter& e, const Vec3& p) {
-    const Vec3 &x = axis_x(e), &y = axis_y(e);
+/// The weights of the second and third corner of the triangle with edges `x` and `y` at a point of
+/// its plane.
+Vec2 weights_at(const Vec3& x, const Vec3& y, const Vec3& p) {
     const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y);
     const double px = dot(p, x), py = dot(p, y), below = xx * yy - xy * xy;
     const double u = std::clamp((yy * px - xy * py) / below, 0.0, 1.0);
     return {u, std::clamp((xx * py - xy * px) / below, 0.0, 1.0 - u)};
 }
 
+/// The weights of the second and third corner of a triangle at the sample by area.
+Vec2 weights_by_area(const Vec2& u) {
+    const double root = std::sqrt(u.x);
+    return {root * (1.0 - u.y), root * u.y};
+}
+
 EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u) {
     if (is_sampled_by_area(e, from)) return seen_by_area(e, from, point_of(e, u));
-    const SphericalTriangle seen = triangle_from(e, from);
-    if (!(seen.solid_angle() > kLeastSolidAngle)) return seen_by_area(e, from, point_of(e, u));
-    const Vec3 direction = seen.direction(u), corner = corner_of(e) - from;
-    const double height = dot(corner, axis_z(e)), slope = dot(direction, axis_z(e));
-    if (!e.two_sided && !(height < 0.0)) return {};
-    const double distance = height / slope;
-    if (!(distance > 0.0) || !std::isfinite(distance)) return {};
-    return {direction, distance, 1.0 / seen.solid_angle(),
-            weights_at(e, distance * direction - corner)};
+    const EmittingTriangle triangle{corner_of(e), axis_x(e),    axis_y(e),
+                                    axis_z(e),    1.0 / e.area, e.two_sided};
+    return sample_near(triangle, from, u);
 }
 
 EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u) {
@@ -305,6 +308,23 @@ bool make_ready(Emitter& e) {
            is_finite(axis_z(e)) && e.radiance.is_finite();
 }
 
+EmitterSample sample_near(const EmittingTriangle& e, const Vec3& from, const Vec2& u) {
+    const Vec3 corner = e.corner - from;
+    const SphericalTriangle seen(corner, corner + e.x, corner + e.y);
+    if (!(seen.solid_angle() > kLeastSolidAngle)) {
+        const Vec2 w = weights_by_area(u);
+        const Vec3 point = Affine{{e.x, e.y, e.normal}, e.corner}.point({w.x, w.y, 0});
+        return seen_by_area(e.two_sided, from, {point, e.normal, e.density, w});
+    }
+    const Vec3 direction = seen.direction(u);
+    const double height = dot(corner, e.normal), slope = dot(direction, e.normal);
+    if (!e.two_sided && !(height < 0.0)) return {};
+    const double distance = height / slope;
+    if (!(distance > 0.0) || !std::isfinite(distance)) return {};
+    return {direction, distance, 1.0 / seen.solid_angle(),
+            weights_at(e.x, e.y, distance * direction - corner)};
+}
+
 EmitterSample sample(const Emitter& e, const Vec3& from, const Vec2& u) {
     switch (e.form) {
         case EmitterForm::Triangle:
@@ -357,8 +377,7 @@ EmitterPoint point_of(const Emitter& e, const Vec2& u) {
     const Affine& world = e.world_from_own;
     switch (e.form) {
         case EmitterForm::Triangle: {
-            const double root = std::sqrt(u.x);
-            const Vec2 w{root * (1.0 - u.y), root * u.y};
+            const Vec2 w = weights_by_area(u);
             return {world.point({w.x, w.y, 0}), axis_z(e), 1.0 / e.area, w};
         }
         case EmitterForm::Rectangle:

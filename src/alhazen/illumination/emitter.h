@@ -99,6 +99,17 @@ struct EmitterSample {
 /// Samples a point of the emitter as seen from `from`; `u` in [0, 1)^2.
 [[nodiscard]] EmitterSample sample(const Emitter& emitter, const Vec3& from, const Vec2& u);
 
+/// A triangle that emits: the corner and two edges from it, its unit outer normal, and the density
+/// of samples by area.
+struct EmittingTriangle {
+    const Vec3 &corner, &x, &y, &normal;
+    double density;
+    bool two_sided;
+};
+/// `sample` of a triangle for a point where `is_sampled_by_area` is false.
+[[nodiscard]] EmitterSample sample_near(const EmittingTriangle& emitter, const Vec3& from,
+                                        const Vec2& u);
+
 /// A point of an emitter that a ray hit.
 struct EmitterHit {
     Vec3 direction;  ///< of the ray, unit

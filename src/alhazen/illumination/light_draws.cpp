@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "alhazen/illumination/illumination_data.h"
@@ -141,18 +142,21 @@ void LightDraws::draw_near(std::uint32_t lanes) {
     } else {
         choose_near(lanes, chosen.data());
     }
-    const std::uint32_t rest = d.flat.empty() ? lanes : draw_by_area(lanes, chosen.data());
-    if (rest == 0) return;
-    // Not functions of one lane: they would have no effect, and compilers leave such calls out.
-    for (std::uint32_t left = d.flat.empty() ? 0 : rest; left != 0; left &= left - 1) {
-        const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
-        if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
+    const Left left = d.flat.empty() ? Left{0, lanes} : draw_by_area(lanes, chosen.data());
+    std::uint32_t rectangles = 0;
+    if (left.near_flat != 0) rectangles = draw_near_flat(left.near_flat, chosen.data());
+    if (left.others != 0) {
+        // Not functions of one lane: they would have no effect, and compilers leave such calls out.
+        for (std::uint32_t rest = d.flat.empty() ? 0 : left.others; rest != 0; rest &= rest - 1) {
+            const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(rest))];
+            if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
+        }
+        rectangles |= draw_near_part(left.others, chosen.data());
     }
-    const std::uint32_t rectangles = draw_near_part(rest, chosen.data());
     if (rectangles != 0) draw_rectangles(rectangles);
 }
 
-std::uint32_t LightDraws::draw_by_area(std::uint32_t lanes, const ChosenLight* chosen) {
+LightDraws::Left LightDraws::draw_by_area(std::uint32_t lanes, const ChosenLight* chosen) {
     const Illumination::Data& d = *lights_.data_;
     // Chosen emitters of the scene with constant radiance.
     std::uint32_t flat = 0;
@@ -170,8 +174,37 @@ std::uint32_t LightDraws::draw_by_area(std::uint32_t lanes, const ChosenLight* c
         by_area_.set(lane, e, d.flat_radiances[e.radiance], chosen[lane].light, probability);
         set |= 1u << lane;
     });
-    if (set == 0) return lanes;
-    return (lanes & ~set) | by_area_.draw(set, calls_, results_);
+    if (set == 0) return {0, lanes};
+    return {by_area_.draw(set, calls_, results_), lanes & ~set};
+}
+
+std::uint32_t LightDraws::draw_near_flat(std::uint32_t lanes, const ChosenLight* chosen) {
+    const Illumination::Data& d = *lights_.data_;
+    std::uint32_t rectangles = 0;
+    for_each_lane(lanes, [&](std::size_t lane) {
+        const std::size_t light = chosen[lane].light;
+        const FlatEmitter& e = d.flat[light];
+        const Spectrum& radiance = d.flat_radiances[e.radiance];
+        const double probability = d.near_share * chosen[lane].probability;
+        if (e.form == EmitterForm::Rectangle) {
+            rectangles_.set(lane, d.emitter(light), e, radiance, probability);
+            rectangle_lights_[lane] = light;
+            rectangles |= 1u << lane;
+            return;
+        }
+        const EmitterSample s =
+            sample_near(e.triangle(), calls_.at.point_of(lane), calls_.u_of(lane));
+        LightDraw draw;
+        if (s.density > 0.0 && std::isfinite(s.density)) {
+            draw = {.to_light = s.to_light,
+                    .distance = s.distance,
+                    .radiance = radiance,
+                    .density = probability * s.density,
+                    .place = {light, s.parameters}};
+        }
+        results_.set(lane, draw);
+    });
+    return rectangles;
 }
 
 std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes, const ChosenLight* chosen) {

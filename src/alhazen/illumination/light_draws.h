@@ -52,8 +52,16 @@ class LightDraws {
     void draw_far(std::uint32_t lanes);
     void draw_sky(std::size_t count);
     void draw_near(std::uint32_t lanes);
-    /// Draws the flat emitters of the scene that are sampled by area; returns the other lanes.
-    [[nodiscard]] std::uint32_t draw_by_area(std::uint32_t lanes, const ChosenLight* chosen);
+    /// Lanes that are left to be drawn.
+    struct Left {
+        std::uint32_t near_flat = 0;  ///< with a FlatEmitter that is near, in colour channels
+        std::uint32_t others = 0;
+    };
+    /// Draws the flat emitters of the scene that are sampled by area.
+    [[nodiscard]] Left draw_by_area(std::uint32_t lanes, const ChosenLight* chosen);
+    /// Draws flat emitters that are near, but rectangles, which are set in their lanes and
+    /// returned.
+    [[nodiscard]] std::uint32_t draw_near_flat(std::uint32_t lanes, const ChosenLight* chosen);
     /// Draws all chosen lights but rectangles, which are set in their lanes and returned.
     [[nodiscard]] std::uint32_t draw_near_part(std::uint32_t lanes, const ChosenLight* chosen);
     /// Chooses a near light for each of `lanes`: chosen[lane].

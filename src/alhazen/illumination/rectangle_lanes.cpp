@@ -142,26 +142,45 @@ RectangleLanes::RectangleLanes() {
 }
 
 void RectangleLanes::set_emitter(std::size_t lane, const Emitter& e, const Rgb* radiance) {
+    emitters_[lane] = &e;
+    const Affine& world = e.world_from_own;
+    set_rectangle(lane, e, world.translation, world.linear.z_axis, e.sides);
+    if (radiance != nullptr) {
+        const Spectrum light = kColorChannels.emission(*radiance);
+        set_radiance(lane, &light);
+    } else {
+        set_radiance(lane, nullptr);
+    }
+}
+
+void RectangleLanes::set_flat(std::size_t lane, const FlatEmitter& e) {
+    set_rectangle(lane, e, e.corner, e.normal, RectangleSides::of(e.x, e.y));
+}
+
+template <class AnyEmitter>
+void RectangleLanes::set_rectangle(std::size_t lane, const AnyEmitter& e, const Vec3& corner,
+                                   const Vec3& normal, const RectangleSides& sides) {
     const auto put = [lane](const Vec3& v, double(&values)[3][kMost]) {
         for (int k = 0; k < 3; ++k) values[k][lane] = v[k];
     };
-    emitters_[lane] = &e;
-    put(e.world_from_own.translation, numbers_.corner);
-    put(e.sides.x, numbers_.x);
-    put(e.sides.y, numbers_.y);
-    put(e.sides.z, numbers_.z);
-    put(e.world_from_own.linear.z_axis, numbers_.normal);
-    numbers_.width[lane] = e.sides.width;
-    numbers_.height[lane] = e.sides.height;
+    put(corner, numbers_.corner);
+    put(sides.x, numbers_.x);
+    put(sides.y, numbers_.y);
+    put(sides.z, numbers_.z);
+    put(normal, numbers_.normal);
+    numbers_.width[lane] = sides.width;
+    numbers_.height[lane] = sides.height;
     numbers_.far_squared[lane] = e.far_squared;
     numbers_.in_plane[lane] = e.in_plane;
     const std::uint32_t bit = 1u << lane;
-    const auto mark = [bit](bool holds, std::uint32_t& lanes) {
-        lanes = holds ? lanes | bit : lanes & ~bit;
-    };
-    mark(e.two_sided, numbers_.two_sided);
-    mark(radiance == nullptr, numbers_.drawn.varying);
-    const Spectrum light = radiance != nullptr ? kColorChannels.emission(*radiance) : Spectrum{};
+    numbers_.two_sided = e.two_sided ? numbers_.two_sided | bit : numbers_.two_sided & ~bit;
+}
+
+void RectangleLanes::set_radiance(std::size_t lane, const Spectrum* radiance) {
+    const std::uint32_t bit = 1u << lane;
+    std::uint32_t& varying = numbers_.drawn.varying;
+    varying = radiance == nullptr ? varying | bit : varying & ~bit;
+    const Spectrum light = radiance != nullptr ? *radiance : Spectrum{};
     for (int k = 0; k < Spectrum::kCount; ++k) numbers_.radiance[k][lane] = light[k];
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "alhazen/illumination/area_lanes.h"
 #include "alhazen/illumination/emitter.h"
 #include "alhazen/illumination/light_lanes.h"
 
@@ -28,6 +29,17 @@ class RectangleLanes {
     /// object, unchanged. `radiance`: of all its points; null: it varies.
     void set(std::size_t lane, const Emitter& e, const Rgb* radiance, double probability) {
         if (emitters_[lane] != &e) set_emitter(lane, e, radiance);
+        numbers_.probability[lane] = probability;
+    }
+    /// As above, by what `flat` keeps of the emitter, without reading that. It has perpendicular
+    /// edges.
+    void set(std::size_t lane, const Emitter& e, const FlatEmitter& flat, const Spectrum& radiance,
+             double probability) {
+        if (emitters_[lane] != &e) {
+            emitters_[lane] = &e;
+            set_flat(lane, flat);
+            set_radiance(lane, &radiance);
+        }
         numbers_.probability[lane] = probability;
     }
     [[nodiscard]] double probability(std::size_t lane) const { return numbers_.probability[lane]; }
@@ -61,6 +73,12 @@ class RectangleLanes {
 
   private:
     void set_emitter(std::size_t lane, const Emitter& e, const Rgb* radiance);
+    void set_flat(std::size_t lane, const FlatEmitter& e);
+    /// `e`: an Emitter or a FlatEmitter.
+    template <class AnyEmitter>
+    void set_rectangle(std::size_t lane, const AnyEmitter& e, const Vec3& corner,
+                       const Vec3& normal, const RectangleSides& sides);
+    void set_radiance(std::size_t lane, const Spectrum* radiance);
 
     Numbers numbers_;
     const Emitter* emitters_[kMost] = {};  ///< null: the lane is empty

@@ -177,6 +177,41 @@ TEST(BuildReferences, BlocksOfFastTreesHoldTheTableWithinTheirBoxes) {
     }
 }
 
+PrimitiveTable table_of(TriangleMesh mesh) {
+    PrimitiveTable table;
+    table.meshes.push_back(
+        {std::make_shared<TriangleMesh>(std::move(mesh)), MaterialId{0}, 0, false});
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    return table;
+}
+
+/// Many triangles, `together` of them at a place and the others far away.
+TriangleMesh groups_of_triangles(std::uint32_t count, std::uint32_t together) {
+    RandomEngine random(61);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t group = i / together;
+        const Vec3 place{group % 512 + 0.5, group / 512 + 0.5, 0};
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(place + uniform_point(random, 0.01));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+}
+
+TEST(BuildReferences, BlocksOfLargeTreesAreMadeInTheRoomOfTheReferencesOrBeside) {
+    constexpr std::uint32_t kCount = 1u << 20;
+    for (const std::uint32_t together : {8u, 4u}) {
+        const PrimitiveTable table = table_of(groups_of_triangles(kCount, together));
+        const std::string name = std::to_string(together);
+        expect_blocks_of_table(table, name, BuildQuality::Default);
+        const WideBvhLayout layout = build_wide_bvh(table, BoundedPrimitives(table));
+        // Full blocks leave room; those with half of the lanes in use need more.
+        EXPECT_EQ(layout.triangles.capacity() > layout.triangles.size(), together == 8) << name;
+        EXPECT_LT(layout.memory_bytes(), 112 * std::size_t{kCount}) << name;
+    }
+}
+
 template <class T>
 std::vector<std::byte> bytes_of(const MappableVector<T>& values) {
     const auto* const first = reinterpret_cast<const std::byte*>(values.data());
@@ -195,11 +230,7 @@ std::vector<PrimitiveTable> tables_of_fast_trees() {
             for (int k = 0; k < 3; ++k) mesh.positions.push_back(at + uniform_point(random, 0.01));
             mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
-        PrimitiveTable table;
-        table.meshes.push_back({std::make_shared<TriangleMesh>(mesh), MaterialId{0}, 0, false});
-        table.material_opacity = {Opacity::Opaque};
-        table.finish();
-        tables.push_back(std::move(table));
+        tables.push_back(table_of(std::move(mesh)));
     }
     tables.push_back(odd_table(1, {}, 60));
     return tables;

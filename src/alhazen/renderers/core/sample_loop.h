@@ -62,6 +62,7 @@ class SampleLoop {
           eye_(job.camera),
           sums_(at_once),
           signs_(at_once),
+          ids_(at_once),
           points_(at_once),
           rays_(at_once),
           radiance_(at_once) {
@@ -96,7 +97,6 @@ class SampleLoop {
     void begin_tile(const PixelBox& tile, const Film& film) {
         tile_ = tile;
         gathered_ = done_ = 0;
-        ids_.clear();
         own_ = {};
         taken_ = 0;
         places_.clear();
@@ -118,7 +118,11 @@ class SampleLoop {
             for (std::uint32_t n = round_.first + s; const Vec2& u : some) {
                 const FilterKernel::Drawn drawn = round_.filter.draw(u);
                 if constexpr (SampleEstimator<Estimator>) {
-                    ids_.push_back({place, n++, drawn.sign});
+                    // Part by part: a copy would wait for them.
+                    SampleId& id = ids_[gathered_];
+                    id.pixel = place;
+                    id.number = n++;
+                    id.sign = drawn.sign;
                 }
                 const Vec2 p = film_place(film, place, drawn.offset);
                 if (job_.aovs != nullptr) places_.push_back(p);
@@ -149,8 +153,7 @@ class SampleLoop {
         std::fill(found.begin(), found.end(), Rgb{});
         const auto rays = std::span<const Ray>(rays_).first(gathered_);
         if constexpr (SampleEstimator<Estimator>) {
-            estimator.trace_samples(ids_, rays, found);
-            ids_.clear();
+            estimator.trace_samples(std::span(ids_).first(gathered_), rays, found);
         } else {
             estimator.trace(rays, found);
         }

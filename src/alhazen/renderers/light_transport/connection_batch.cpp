@@ -10,9 +10,6 @@ namespace alhazen {
 
 namespace {
 
-/// Rays per cast: enough to fill the stream kernel, and few enough for the cache.
-constexpr std::size_t kMostLightRays = 512;
-
 /// The transmittance of a medium, absorption only; null: 1.
 Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) {
     if (medium == nullptr || medium->absorption.is_black()) return Spectrum::all(1);
@@ -31,14 +28,14 @@ ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, Trav
       faces_(scene),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return !m.double_sided; })),
-      met_(std::make_unique<bool[]>(kMostLightRays)) {
-    rays_.reserve(kMostLightRays);
-    waiting_.reserve(kMostLightRays);
+      rays_(kMostRays),
+      met_(std::make_unique<bool[]>(kMostRays)) {
+    waiting_.reserve(kMostRays);
 }
 
 void ConnectionBatch::add(const Ray& ray, float time, const MediumStack& media,
                           const Wavelengths& waves, const Spectrum& light, Spectrum& sum) {
-    if (rays_.size() == kMostLightRays) finish();
+    if (waiting_.size() == kMostRays) finish();
     const Medium* const medium = media.here();
     // If volumes are followed, this one may end along the ray.
     const Spectrum left =
@@ -47,17 +44,23 @@ void ConnectionBatch::add(const Ray& ray, float time, const MediumStack& media,
             : light * left_by(medium, ray.t_max * length(ray.direction), waves);
     if (left.is_black()) return;
     if (media_.are_followed()) around_.push_back(media);
-    rays_.push_back(ray);
+    rays_[waiting_.size()] = ray;
     times_.push_back(time);
     waiting_.push_back({left, &waves, &sum});
 }
 
+void ConnectionBatch::add_waiting(float time, const Spectrum& light, Spectrum& sum) {
+    if (media_.are_followed()) around_.emplace_back();
+    times_.push_back(time);
+    waiting_.push_back({light, &kColorChannels, &sum});
+}
+
 void ConnectionBatch::finish() {
-    if (rays_.empty()) return;
-    const std::span<bool> met(met_.get(), rays_.size());
+    if (waiting_.empty()) return;
+    const std::span<bool> met(met_.get(), waiting_.size());
     find_met(met);
-    count_.cast += rays_.size();
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
+    count_.cast += met.size();
+    for (std::size_t i = 0; i < met.size(); ++i) {
         count_.hit += met[i];
         const Waiting& w = waiting_[i];
         if (media_.are_followed()) {
@@ -70,17 +73,17 @@ void ConnectionBatch::finish() {
             *w.sum += through_surfaces(rays_[i], times_[i], RayKind::Shadow, *w.waves) * w.light;
         }
     }
-    rays_.clear();
     times_.clear();
     around_.clear();
     waiting_.clear();
 }
 
 void ConnectionBatch::find_met(std::span<bool> met) {
+    const std::span<const Ray> rays = std::span(rays_).first(met.size());
     if (scene_.has_motion) {
-        scene_.aggregate->occluded_batch_at(rays_, times_, met, query(0.0f), Coherence::Any);
+        scene_.aggregate->occluded_batch_at(rays, times_, met, query(0.0f), Coherence::Any);
     } else {
-        scene_.aggregate->occluded_batch(rays_, met, query(0.0f), Coherence::Any);
+        scene_.aggregate->occluded_batch(rays, met, query(0.0f), Coherence::Any);
     }
 }
 

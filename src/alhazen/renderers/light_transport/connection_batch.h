@@ -34,6 +34,15 @@ class ConnectionBatch {
     /// must stay valid until `finish`.
     void add(const Ray& ray, float time, const MediumStack& media, const Wavelengths& waves,
              const Spectrum& light, Spectrum& sum);
+    /// `add` for colour channels and a ray outside of all volumes. Always inlined: the ray is made
+    /// where it is kept. A copy would wait for its parts.
+    [[gnu::always_inline]] void add_outside(const Ray& ray, float time, const Spectrum& light,
+                                            Spectrum& sum) {
+        if (waiting_.size() == kMostRays) finish();
+        if (light.is_black()) return;
+        rays_[waiting_.size()] = ray;
+        add_waiting(time, light, sum);
+    }
     /// Casts the gathered rays.
     void finish();
 
@@ -57,6 +66,11 @@ class ConnectionBatch {
         Spectrum* sum;
     };
 
+    /// Rays per cast: enough to fill the stream kernel, and few enough for the cache.
+    static constexpr std::size_t kMostRays = 512;
+
+    /// Adds what belongs to the last ray.
+    void add_waiting(float time, const Spectrum& light, Spectrum& sum);
     [[nodiscard]] RayQuery query(float time, RayKind kind = RayKind::Shadow) const {
         return {stats_, mask_for(kind), time};
     }
@@ -90,7 +104,7 @@ class ConnectionBatch {
     ScatteringMedia media_;
     CoincidentFaces faces_;
     bool has_single_sided_;
-    std::vector<Ray> rays_;
+    std::vector<Ray> rays_;  ///< kMostRays, of which the first wait
     std::vector<Waiting> waiting_;
     std::vector<float> times_;
     std::vector<MediumStack> around_;  ///< [ray]; only if volumes are followed

@@ -118,7 +118,7 @@ void PathTracer::scatter_lanes() {
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
                          LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
-        shadows_.add(shadow, path.time, outside_, kColorChannels, shown, light_[path.sample]);
+        shadows_.add_outside(shadow, path.time, shown, light_[path.sample]);
     });
     for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
     draws_.clear();

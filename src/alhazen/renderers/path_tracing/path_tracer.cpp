@@ -55,7 +55,8 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     random_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();
-    rays_.clear();
+    rays_.resize(rays.size());
+    next_rays_.resize(rays.size());
     if (random_.is_spectral()) waves_.assign(rays.size(), {});
     polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
@@ -64,11 +65,11 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         alive_.push_back(i);
         path.time = camera_.time(random_, ids[i]);
         path.cone = job_.cone;
-        rays_.push_back(camera_.through_lens(random_, ids[i], rays[i], path.time));
-        path.media = camera_.media(rays_.back(), path.time);
+        rays_[i] = camera_.through_lens(random_, ids[i], rays[i], path.time);
+        path.media = camera_.media(rays_[i], path.time);
         path.inside = !path.media.empty();
         if (settings_.polarization) {
-            const Vec3 axis = picture_axis(rays_.back().direction, camera_.up(path.time));
+            const Vec3 axis = picture_axis(rays_[i].direction, camera_.up(path.time));
             polarized_.emplace_back().begin(axis);
         }
     }
@@ -90,7 +91,6 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
 
 void PathTracer::bounce(bool first) {
     next_alive_.clear();
-    next_rays_.clear();
     joined_.clear();
     joined_.reserve(joins_apart() ? alive_.size() : 0);
     joined_to_eye_.clear();
@@ -99,7 +99,8 @@ void PathTracer::bounce(bool first) {
     }
     next_kinds_ = {};
     visible_.find(
-        rays_, first ? Coherence::Coherent : Coherence::Any,
+        std::span<const Ray>(rays_).first(alive_.size()),
+        first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
             EyePath& path = paths_[alive_[k]];

@@ -170,10 +170,11 @@ class PathTracer {
     /// The kind of the first scattering, if the path is scattered along `direction` next.
     [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
     [[nodiscard]] bool survives_roulette(EyePath& path);
-    void go_on(const EyePath& path, const Ray& ray) {
+    /// Always inlined: the ray is made where it is kept. A copy would wait for its parts.
+    [[gnu::always_inline]] void go_on(const EyePath& path, const Ray& ray) {
         ++next_kinds_[static_cast<std::size_t>(path.kind)];
+        next_rays_[next_alive_.size()] = ray;
         next_alive_.push_back(path.sample);
-        next_rays_.push_back(ray);
     }
     /// The wavelengths of a sample; drawn on first use.
     [[nodiscard]] const Wavelengths& waves_of(std::uint32_t sample) {
@@ -222,7 +223,6 @@ class PathTracer {
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
     std::array<double, VertexLanes::kMost> lobe_choices_;  ///< set where a light is chosen, too
-    const MediumStack outside_;                            ///< around vertices in lanes
     LightDraws draws_;
     std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
@@ -244,7 +244,7 @@ class PathTracer {
     std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_;      ///< [sample of the batch]
     std::vector<std::uint32_t> alive_, next_alive_;           ///< samples with an active path
-    std::vector<Ray> rays_, next_rays_;                       ///< [alive]
+    std::vector<Ray> rays_, next_rays_;                       ///< [alive]; as many as samples
     std::array<std::size_t, kRayKindCount> next_kinds_ = {};  ///< [kind] number of next rays
 };
 

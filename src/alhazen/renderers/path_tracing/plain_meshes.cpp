@@ -1,5 +1,7 @@
 #include "alhazen/renderers/path_tracing/plain_meshes.h"
 
+#include <algorithm>
+
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 
@@ -38,17 +40,31 @@ PlainMeshes::PlainMeshes(const Scene& scene)
 }
 
 void PlainMeshes::list_meshes() {
-    for (const PlacedMesh& mesh : table_.meshes) {
-        ends_.push_back(mesh.first_triangle +
-                        static_cast<std::uint32_t>(mesh.mesh->triangles.size()));
-    }
-    if (ends_.empty() || ends_.back() == 0) return;
-    const std::uint32_t last = ends_.back() - 1;
-    const std::size_t most = std::max<std::size_t>(64, 8 * ends_.size());
-    while ((last >> block_bits_) >= most) ++block_bits_;
-    for (std::uint32_t block = 0, mesh = 0; block <= (last >> block_bits_); ++block) {
-        while (ends_[mesh] <= (block << block_bits_)) ++mesh;
-        first_meshes_.push_back(mesh);
+    const auto end_of = [&](std::uint32_t mesh) {
+        const PlacedMesh& placed = table_.meshes[mesh];
+        return std::uint64_t{placed.first_triangle} + placed.mesh->triangles.size();
+    };
+    const std::uint64_t meshes = table_.meshes.size();
+    const std::uint64_t triangles =
+        meshes == 0 ? 0 : end_of(static_cast<std::uint32_t>(meshes - 1));
+    // About as many blocks as triangles in blocks of several meshes.
+    while (triangles >> 2 * block_bits_ > meshes) ++block_bits_;
+    const std::uint64_t size = std::uint64_t{1} << block_bits_;
+    std::uint32_t mesh = 0;
+    for (std::uint64_t begin = 0; begin < triangles; begin += size) {
+        const std::uint64_t end = std::min(begin + size, triangles);
+        while (end_of(mesh) <= begin) ++mesh;
+        const auto first = static_cast<std::uint32_t>(numbers_.size());
+        if (end_of(mesh) >= end) {
+            blocks_.push_back({first, 0});
+            numbers_.push_back(mesh);
+            continue;
+        }
+        blocks_.push_back({first, static_cast<std::uint32_t>(size - 1)});
+        for (std::uint64_t i = begin; i < end; ++i) {
+            while (end_of(mesh) <= i) ++mesh;
+            numbers_.push_back(mesh);
+        }
     }
 }
 

@@ -53,15 +53,16 @@ class PlainMeshes {
         const PlainMaterial* material = nullptr;
     };
 
-    /// The number of the mesh of a triangle. Most blocks of triangles have one or two meshes.
+    /// Successive triangles: that of number i is of mesh `numbers_[first + (i & mask)]`. The mask
+    /// is 0 where all are of one mesh.
+    struct Block {
+        std::uint32_t first, mask;
+    };
+
+    /// The number of the mesh of a triangle.
     [[nodiscard]] std::size_t mesh_at(std::uint32_t triangle) const {
-        std::size_t number = first_meshes_[triangle >> block_bits_];
-        for (int steps = 0; ends_[number] <= triangle; ++steps, ++number) {
-            if (steps == kMostSteps) {
-                return static_cast<std::size_t>(&table_.mesh_of(triangle) - table_.meshes.data());
-            }
-        }
-        return number;
+        const Block block = blocks_[triangle >> block_bits_];
+        return numbers_[block.first + (triangle & block.mask)];
     }
     void list_meshes();
     void look_at(const PlacedMesh& mesh, Look& look);
@@ -72,10 +73,9 @@ class PlainMeshes {
     std::uint32_t first_;      ///< primitive of the first triangle
     bool any_;                 ///< false: no hit is plain
     std::vector<Look> looks_;  ///< [mesh]
-    static constexpr int kMostSteps = 4;
     int block_bits_ = 0;
-    std::vector<std::uint32_t> first_meshes_;  ///< [triangle >> block_bits_] of the first triangle
-    std::vector<std::uint32_t> ends_;          ///< [mesh] behind its last triangle
+    std::vector<Block> blocks_;                              ///< [triangle >> block_bits_]
+    std::vector<std::uint32_t> numbers_;                     ///< of meshes
     std::vector<std::unique_ptr<PlainMaterial>> materials_;  ///< [material]; null: not yet made
 };
 

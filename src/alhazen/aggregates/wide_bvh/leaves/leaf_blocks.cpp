@@ -27,8 +27,10 @@ static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
 static_assert(kBlockWidth == kCurveLeafSize);
 
 constexpr std::size_t kGrain = 16384;
-/// Bytes of references from which on their pages are returned before the leaves are made.
+/// Bytes of references from which on their pages serve for the leaves.
 constexpr std::size_t kLargeReferences = std::size_t{32} << 20;
+/// Bytes of blocks a triangle, at most: 5 of 8 lanes in use. Mostly there are 5.6.
+constexpr std::size_t kRoomOfTriangle = 64;
 
 /// Copies primitives into blocks, leaf by leaf.
 class Packer final : public LeafSink {
@@ -36,13 +38,19 @@ class Packer final : public LeafSink {
     explicit Packer(LeafWriter& writer) : writer_(writer) {}
     /// Leaves need only the ids of `references`: a large array loses its other values when the
     /// leaves are made, so that its pages serve for them. The system takes longer to provide a page
-    /// that another process had.
-    Packer(LeafWriter& writer, std::span<BuildReference> references) : writer_(writer) {
+    /// that another process had. `room`: the number of blocks of triangles in whose memory the
+    /// references are; 0: elsewhere.
+    Packer(LeafWriter& writer, std::span<BuildReference> references, std::size_t room)
+        : writer_(writer), room_(room) {
         if (references.size_bytes() >= kLargeReferences) large_ = references;
     }
 
     void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
-        if (!large_.empty()) keep_ids();
+        if (!large_.empty()) {
+            keep_ids();
+            const bool fits = blocks[static_cast<std::size_t>(LeafType::Triangles)] <= room_;
+            if (!fits) discard_pages(large_.data(), large_.size_bytes());
+        }
         writer_.resize(blocks);
     }
     float pack(std::uint32_t kind, std::size_t offset,
@@ -65,7 +73,6 @@ class Packer final : public LeafSink {
         parallel_for(large_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) ids_[i] = large_[i].id;
         });
-        discard_pages(large_.data(), large_.size_bytes());
     }
 
     /// Sorts few ids, id_of(0) and so on, by their ranks, without branches that depend on them.
@@ -92,6 +99,7 @@ class Packer final : public LeafSink {
     }
 
     LeafWriter& writer_;
+    std::size_t room_ = 0;
     std::span<BuildReference> large_;
     HugeArray<std::uint32_t> ids_;  ///< of `large_`, whose values are lost
 };
@@ -157,6 +165,18 @@ BinaryBvh build_of_high_quality(std::vector<BuildReference>& references, const L
     return linearize(best.draft, references);
 }
 
+/// The number of blocks in whose room the references are made, which they replace, if these are
+/// many and all of triangles; else 0.
+std::size_t room_of_references(const PrimitiveTable& table, const BoundedPrimitives& bounded,
+                               const BuildOptions& options) {
+    static_assert(sizeof(BuildReference) < kRoomOfTriangle);
+    static_assert(alignof(TriangleBlock) % alignof(BuildReference) == 0);
+    const bool large = bounded.size() * sizeof(BuildReference) >= kLargeReferences;
+    const std::size_t triangles = table.first(kInstanceKind) - table.first(kTriangleKind);
+    if (!large || triangles != table.size() || options.leaves == Leaves::Indices) return 0;
+    return bounded.size() * kRoomOfTriangle / sizeof(TriangleBlock);
+}
+
 }  // namespace
 
 WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitives& bounded,
@@ -183,11 +203,16 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
         layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
         return layout;
     }
-    const auto room = make_huge_array<BuildReference>(bounded.size());
-    const std::span references(room.get(), bounded.size());
+    const std::size_t blocks = room_of_references(table, bounded, options);
+    HugeArray<BuildReference> beside;
+    if (blocks == 0) beside = make_huge_array<BuildReference>(bounded.size());
+    layout.triangles.reserve(blocks);
+    const std::span references(
+        blocks == 0 ? beside.get() : reinterpret_cast<BuildReference*>(layout.triangles.data()),
+        bounded.size());
     make_references(table, bounded, layout.frame, references);
     const BinaryBvh binary = build_binary(references, kLeafKindTable);
-    Packer packer(writer, references);
+    Packer packer(writer, references, blocks);
     layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
     return layout;
 }
@@ -198,7 +223,8 @@ double WideBvhLayout::sah_cost() const {
 
 std::size_t WideBvhLayout::memory_bytes() const {
     std::size_t bytes = 0;
-    for_each_array(*this, [&](const auto& array) { bytes += array.capacity() * sizeof(array[0]); });
+    // What is reserved beside is not written.
+    for_each_array(*this, [&](const auto& array) { bytes += array.size() * sizeof(array[0]); });
     return bytes;
 }
 
