@@ -347,7 +347,6 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
 template <class Query>
 HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std::size_t count,
                               FilteredShapes* found) {
-    constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
     const auto in_float = [](const Query& query) HWY_ATTR {
         return query.filter.edge_slack < std::numeric_limits<float>::infinity();
     };
@@ -357,7 +356,7 @@ HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std:
                                     found[i]};
     };
     for (std::size_t i = 0; i < count; ++i) {
-        if (kPairs && i + 1 < count && in_float(*queries[i]) && in_float(*queries[i + 1])) {
+        if (kPairsRays && i + 1 < count && in_float(*queries[i]) && in_float(*queries[i + 1])) {
             (void)shape_candidates(at(i), at(i + 1));
             ++i;
             continue;

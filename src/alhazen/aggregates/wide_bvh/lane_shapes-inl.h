@@ -164,7 +164,8 @@ class LaneShapes {
     HWY_INLINE void filter_by_rays(const Block& block, std::uint32_t lanes,
                                    FilteredShapes (&filtered)[kPacketLanes],
                                    std::uint32_t (&passed)[kPacketLanes]) {
-        const bool pairs = kPairs && packet_.edge_slack < std::numeric_limits<float>::infinity();
+        const bool pairs =
+            kPairsRays && packet_.edge_slack < std::numeric_limits<float>::infinity();
         while (lanes != 0) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             lanes &= lanes - 1;
@@ -337,8 +338,6 @@ class LaneShapes {
     /// Where a block has this many rays for each shape, or more, each shape is tested against all
     /// rays at once: for closest hits, tests in double are as well.
     static constexpr int kRaysPerShape = Derived::kOrdered ? 1 : 2;
-    /// Whether the filters of two rays are one.
-    static constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
 };
 
 }  // namespace HWY_NAMESPACE

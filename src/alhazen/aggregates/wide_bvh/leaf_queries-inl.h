@@ -142,7 +142,7 @@ struct LeafQuery {
         return true;
     }
     /// Whether `filter_blocks` is faster than `filter_block` for each.
-    static constexpr bool kPairs = Test::kExact && kPairsTriangles;
+    static constexpr bool kPairs = Test::kExact && kPairsRays;
     /// As `filter_block` for two queries and a leaf each. False, without effect, if not both leaves
     /// hold blocks of triangles.
     template <class Stats>
@@ -157,8 +157,11 @@ struct LeafQuery {
         const TriangleBlock &x = a.blocks[of_a.offset()], &y = a.blocks[of_b.offset()];
         stats.primitives(used_lanes(x));
         stats.primitives(used_lanes(y));
-        filter_two({x, a.filter, a.slabs.s_min, a.s_max, a.later_.triangles},
-                   {y, b.filter, b.slabs.s_min, b.s_max, b.later_.triangles});
+        const RayAtBlock<TriangleBlock> first{x, a.filter, a.slabs.s_min, a.s_max,
+                                              a.later_.triangles};
+        const RayAtBlock<TriangleBlock> second{y, b.filter, b.slabs.s_min, b.s_max,
+                                               b.later_.triangles};
+        (void)filter_triangles<true>(TwoRaysAtBlocks<TriangleBlock>{first, second});
         a.later_.set(x);
         b.later_.set(y);
         return true;
