@@ -19,6 +19,7 @@
 #include "alhazen/accel/wide_bvh/trace/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 
@@ -114,13 +115,6 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
-inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
-    return {layout.tree.nodes.data(),
-            {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
-             layout.others.data()},
-            {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)}};
-}
-
 /// Whether packets in lanes of `rays` rays were faster than the stream: what a ray does when it
 /// goes on alone takes longer there than some fourteen of its visits with the others. Where only
 /// every third ray does so once, there is little to gain.
@@ -144,7 +138,7 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
         const FrameSlack& slack = layout.frame.slack;
         box = TreeBox(layout.tree.nodes[root.index()], slack.slab, slack);
     }
-    const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
+    const LaneBatch batch{scene, prefetch_table_of<WideNode::kWidth>(layout), {layout.frame, rays}, box};
     PacketTrials trials(kTries ? scene.failures : nullptr);
     for (std::size_t i = 0; i < rays.size();) {
         const std::size_t end = kTries ? std::min(i + kTriedRays, rays.size()) : rays.size();
@@ -207,8 +201,9 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
     constexpr bool kAnyHit = !InLanes::kOrdered;
     if constexpr (kAnyHit || kParts<float, 16> <= kMostLaneRegisters) {
         if (has_lane_packets<kAnyHit>(scene)) {
-            return run_lanes < InLanes, kAnyHit && !Stats::kCounts > (scene, GivenRays(rays), sink,
-                                                                      stats, otherwise, apart);
+            // Counts must not depend on which packets pay.
+            constexpr bool kTries = kAnyHit && !Stats::kCounts;
+            return run_lanes<InLanes, kTries>(scene, GivenRays(rays), sink, stats, otherwise, apart);
         }
     }
     if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,
@@ -220,7 +215,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         }
         return;
     }
-    const PrefetchTable prefetch_table = prefetch_table_of(layout);
+    const PrefetchTable prefetch_table = prefetch_table_of<WideNode::kWidth>(layout);
     PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);

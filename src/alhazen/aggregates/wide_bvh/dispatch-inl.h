@@ -22,6 +22,7 @@
 #include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shared_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -85,11 +86,7 @@ class BatchSource {
         const WideBvh& tree = scene.layout->tree;
         if (tree.root.is_leaf()) return;
         root_ = &nodes_of<W>(tree)[tree.root.index()];
-        for (std::size_t k = 0; k < 3; ++k) {
-            root_box_[k][0] = *std::ranges::min_element(root_->planes[k]);
-            root_box_[k + 3][0] = *std::ranges::max_element(
-                std::span(root_->planes[k + 3]).first(root_->child_count()));
-        }
+        find_box(*root_, root_box_);
         if (!Stats::kCounts) {
             const LocalFrame& frame = scene.layout->frame;
             tree_box_ = TreeBox(*root_, Query::slab_slack(frame), frame.slack);
@@ -329,13 +326,7 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
-    const bool indexed = layout.is_indexed();
-    const void* triangles = layout.triangles.data();
-    if (indexed) triangles = layout.indices.data();
-    const PrefetchTable prefetch_table(
-        nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
-        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
-         sizeof(FrustumBlock), sizeof(BoxBlock)});
+    const PrefetchTable prefetch_table = prefetch_table_of<W>(layout);
     BatchSource<Query, W, Result, Stats> source(scene, prefetch_table, rays, results, stats);
     const bool fetches = !stays_in_caches<W>(layout, rays.size());
     traverse_sorted<Query>(nodes, root, prefetch_table, fetches, source, stats);

@@ -313,13 +313,8 @@ struct LeafQuery {
         const std::uint32_t may_wait = Query::kFirstOnly ? block.may_be_sure() : 0;
         while (rest != 0) {
             auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            if constexpr (Query::kOrdered) {
-                // The nearest first: its hit may lie before the others.
-                for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
-                    const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                    if (found.lo[other] < found.lo[lane]) lane = other;
-                }
-            }
+            // The nearest first: its hit may lie before the others.
+            if constexpr (Query::kOrdered) lane = lane_of_least(rest, found.lo);
             rest &= ~(1u << lane);
             const BlockId id = block.ids[lane];
             if (found.lo[lane] > s_max || !id.used()) {

@@ -115,11 +115,7 @@ class PacketLeaves {
             HWY_ALIGN float depth[kBlockWidth];
             store_lanes(nearest, depth);
             while (rest != 0) {
-                auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
-                    const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                    if (depth[other] < depth[lane]) lane = other;
-                }
+                const std::size_t lane = lane_of_least(rest, depth);
                 rest &= ~(1u << lane);
                 if (!blocks->ids[lane].used()) continue;
                 const BlockBoxes::Bounds b = boxes.bounds(lane);

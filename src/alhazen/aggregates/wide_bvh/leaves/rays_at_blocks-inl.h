@@ -10,6 +10,7 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_RAYS_AT_BLOCKS_INL_H_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,6 +36,16 @@ struct FilteredShapes {
     HWY_ALIGN float lo[kBlockWidth];  ///< not beyond the first hit
     HWY_ALIGN float hi[kBlockWidth];  ///< of sure lanes: not before the first hit
 };
+
+/// The lane of `bits`, at least one, with the least number.
+HWY_INLINE std::size_t lane_of_least(std::uint32_t bits, const float* numbers) {
+    auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    for (bits &= bits - 1; bits != 0; bits &= bits - 1) {
+        const auto other = static_cast<std::size_t>(std::countr_zero(bits));
+        if (numbers[other] < numbers[lane]) lane = other;
+    }
+    return lane;
+}
 
 /// Three rows of lanes, along the axes of the ray: `F` has a lane for each shape, for one ray, or
 /// for each ray, for one shape.
