@@ -275,10 +275,9 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
 
 void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> occluded,
                                         RayQuery query, Coherence coherence) const {
-    if (takes_whole(coherence) &&
-        kernels_.for_stats(query.stats)
-            .occluded_columns(packet_scene(query, occluded_failures_), rays, occluded,
-                              query.stats)) {
+    if (takes_whole(coherence) && kernels_.for_stats(query.stats)
+                                      .occluded_columns(packet_scene(query, occluded_failures_),
+                                                        rays, occluded, query.stats)) {
         return;
     }
     if (streams_alone(coherence, rays.size())) {

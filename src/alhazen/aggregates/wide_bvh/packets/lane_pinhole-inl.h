@@ -19,16 +19,16 @@
 ///   division by the sum of the edge functions, where they differ by less than a 64th of the least.
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes and is never sure.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

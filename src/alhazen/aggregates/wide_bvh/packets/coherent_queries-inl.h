@@ -2,11 +2,12 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -18,9 +19,9 @@
 
 #include "alhazen/accel/wide_bvh/trace/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -138,7 +139,8 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
         const FrameSlack& slack = layout.frame.slack;
         box = TreeBox(layout.tree.nodes[root.index()], slack.slab, slack);
     }
-    const LaneBatch batch{scene, prefetch_table_of<WideNode::kWidth>(layout), {layout.frame, rays}, box};
+    const LaneBatch batch{
+        scene, prefetch_table_of<WideNode::kWidth>(layout), {layout.frame, rays}, box};
     PacketTrials trials(kTries ? scene.failures : nullptr);
     for (std::size_t i = 0; i < rays.size();) {
         const std::size_t end = kTries ? std::min(i + kTriedRays, rays.size()) : rays.size();
@@ -203,7 +205,8 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         if (has_lane_packets<kAnyHit>(scene)) {
             // Counts must not depend on which packets pay.
             constexpr bool kTries = kAnyHit && !Stats::kCounts;
-            return run_lanes<InLanes, kTries>(scene, GivenRays(rays), sink, stats, otherwise, apart);
+            return run_lanes<InLanes, kTries>(scene, GivenRays(rays), sink, stats, otherwise,
+                                              apart);
         }
     }
     if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,

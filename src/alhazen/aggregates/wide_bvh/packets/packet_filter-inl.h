@@ -19,11 +19,11 @@
 /// `refine_group`, the filter of one ray with rays in the lanes.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
 #endif
 
 #include <algorithm>
@@ -31,9 +31,9 @@
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_crossing-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -6,11 +6,11 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
 /// never sure.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"

@@ -4,11 +4,11 @@
 /// Source: traverse_lanes-inl.h, lane_filter-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_LEAVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_LEAVES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_LEAVES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_LEAVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_LEAVES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_LEAVES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_LEAVES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_LEAVES_INL_H_
 #endif
 
 #include <bit>
@@ -19,11 +19,11 @@
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_pinhole-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_shapes-inl.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_pinhole-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_shapes-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_resolution-inl.h"
 #include "alhazen/shapes/core/first_hit.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,11 +2,11 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -23,6 +23,9 @@
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/ray_records-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shared_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,11 +4,11 @@
 /// Source: lane_filter-inl.h, shapes/span_lanes-inl.h, shapes/polygons/polygon_lanes.h: the bits
 /// are those of single rays. Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
 #endif
 
 #include <bit>
@@ -20,10 +20,10 @@
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/shapes/polygons/polygon_lanes.h"
 #include "alhazen/shapes/span_lanes-inl.h"
@@ -50,9 +50,9 @@ struct GroupHits {
     }
 };
 
-/// `Derived` offers `sphere`, `first_of` and `shape` for one ray (lone_ray-inl.h), `accept` for a hit
-/// (lane_leaves-inl.h), which return true if the ray needs no more; and `left()` when a leaf has
-/// limited rays.
+/// `Derived` offers `sphere`, `first_of` and `shape` for one ray (lone_ray-inl.h), `accept` for a
+/// hit (lane_leaves-inl.h), which return true if the ray needs no more; and `left()` when a leaf
+/// has limited rays.
 template <class Derived>
 class LaneShapes {
   public:
@@ -237,9 +237,8 @@ class LaneShapes {
     }
     template <class Stats>
     HWY_INLINE std::uint32_t intersect_alone(PrimitiveId id, std::uint32_t lanes, Stats stats) {
-        return one_by_one(lanes, [&](std::size_t i, float& s_max) HWY_ATTR {
-            return derived().shape(i, id, s_max, stats);
-        });
+        return one_by_one(lanes, [&](std::size_t i, float& s_max)
+                                     HWY_ATTR { return derived().shape(i, id, s_max, stats); });
     }
     template <class Stats>
     HWY_NOINLINE std::uint32_t intersect_sphere(PrimitiveId id, const Sphere& sphere,

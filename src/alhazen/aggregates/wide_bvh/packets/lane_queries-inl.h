@@ -3,11 +3,11 @@
 /// Source: traverse_lanes-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_QUERIES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_QUERIES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_QUERIES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_QUERIES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_QUERIES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_QUERIES_INL_H_
 #endif
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_candidates-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_hits-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_leaves-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_candidates-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_hits-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_leaves-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/primitives/unused_shear.h"
 
