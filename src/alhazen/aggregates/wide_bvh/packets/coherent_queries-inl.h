@@ -116,9 +116,8 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
-/// Whether packets in lanes of `rays` rays were faster than the stream: what a ray does when it
-/// goes on alone takes longer there than some fourteen of its visits with the others. Where only
-/// every third ray does so once, there is little to gain.
+/// Whether packets in lanes of `rays` rays are as fast as the stream. A ray that goes on alone costs
+/// about fourteen visits in lanes; packets that not more than every third ray leaves always pay.
 [[nodiscard]] HWY_INLINE bool pays(const LaneWork& work, std::size_t rays) {
     return work.together >= 14 * work.alone || 3 * work.alone <= rays;
 }
@@ -192,8 +191,8 @@ HWY_INLINE bool has_lane_packets(const WideBvhScene& scene) {
 inline constexpr std::size_t kClearedTogether = 512;
 
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet, apart(first, count)
-/// for those of any hit that are better off in the stream. Rays and results as
-/// in WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
+/// for those of any hit that are better off in the stream. Rays and results as in
+/// WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
 template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise,
           class Apart>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
