@@ -116,8 +116,9 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
-/// Whether packets in lanes of `rays` rays are as fast as the stream. A ray that goes on alone costs
-/// about fourteen visits in lanes; packets that not more than every third ray leaves always pay.
+/// Whether packets in lanes of `rays` rays are as fast as the stream. A ray that goes on alone
+/// costs about fourteen visits in lanes; packets that not more than every third ray leaves always
+/// pay.
 [[nodiscard]] HWY_INLINE bool pays(const LaneWork& work, std::size_t rays) {
     return work.together >= 14 * work.alone || 3 * work.alone <= rays;
 }
