@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/rays_at_blocks-inl.h"
@@ -54,7 +55,7 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const AxisLanes& 
 }
 
 /// The filter. False if no triangle is hit for all one knows; then what was found is not set. If
-/// `kAtOnce`, no branch depends on what is computed, and only the finer bound is.
+/// `kAtOnce`, no branch depends on what is computed. Two rays take the finer bound alone.
 template <bool kAtOnce, template <class> class In>
 HWY_INLINE bool filter_triangles(const In<TriangleBlock>& in) {
     using F = typename In<TriangleBlock>::F;
@@ -69,12 +70,12 @@ HWY_INLINE bool filter_triangles(const In<TriangleBlock>& in) {
     }
     TriangleCrossing<F> crossing(corners);
     std::uint32_t candidates = all_lanes_of(in);
-    if constexpr (!kAtOnce) {
+    if constexpr (std::is_same_v<F, Floats>) {
         candidates &= ~bits_of(crossing.missed_by_far(
             in.number([](const auto& at) HWY_ATTR { return at.ray.edge_slack; }),
             in.number([](const auto& at) HWY_ATTR { return at.ray.edge_slack_min; })));
-        if (candidates == 0) return false;
-        // Few blocks reach this point, where the distance of the triangles tightens the bound.
+        // Few blocks pass, whose triangles' distance tightens the bound.
+        if (!kAtOnce && candidates == 0) return false;
     }
     crossing.bound(parameter_unit(in),
                    in.number([](const auto& at) HWY_ATTR { return at.ray.near_error; }));
