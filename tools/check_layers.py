@@ -71,6 +71,8 @@ INSIDE = {
     "aggregates": {
         "wide_bvh/leaves": [],
         "wide_bvh": ["wide_bvh/leaves"],
+        "wide_bvh/packets": ["wide_bvh"],
+        "wide_bvh/kernels": ["wide_bvh/packets"],
         "motion": [],
     },
     "explain": {

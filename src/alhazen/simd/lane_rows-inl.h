@@ -19,19 +19,31 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+/// Transposes the 4 x 4 matrices in the blocks of 128 bits of four rows.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void transpose_quads(D d, const V& a, const V& b, const V& c, const V& e,
+                                V (&columns)[4]) {
+    const hn::Repartition<double, D> pairs;
+    const auto ab_low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));
+    const auto ce_low = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+    const auto ab_high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
+    const auto ce_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+    columns[0] = hn::BitCast(d, hn::InterleaveLower(pairs, ab_low, ce_low));
+    columns[1] = hn::BitCast(d, hn::InterleaveUpper(pairs, ab_low, ce_low));
+    columns[2] = hn::BitCast(d, hn::InterleaveLower(pairs, ab_high, ce_high));
+    columns[3] = hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high));
+}
+#endif
+
 /// Transposes a 4 x 4 matrix: lane k of row i becomes lane i of row k.
 HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+#if HWY_TARGET != HWY_SCALAR
     if constexpr (kParts<float, 4> == 1) {
-        const LaneTag<float, 4> d;
-        const auto a = hn::InterleaveLower(d, rows[0].part[0], rows[1].part[0]);
-        const auto b = hn::InterleaveLower(d, rows[2].part[0], rows[3].part[0]);
-        const auto c = hn::InterleaveUpper(d, rows[0].part[0], rows[1].part[0]);
-        const auto e = hn::InterleaveUpper(d, rows[2].part[0], rows[3].part[0]);
-        rows[0].part[0] = hn::ConcatLowerLower(d, b, a);
-        rows[1].part[0] = hn::ConcatUpperUpper(d, b, a);
-        rows[2].part[0] = hn::ConcatLowerLower(d, e, c);
-        rows[3].part[0] = hn::ConcatUpperUpper(d, e, c);
+        hn::Vec<LaneTag<float, 4>> columns[4];
+        transpose_quads(LaneTag<float, 4>(), rows[0].part[0], rows[1].part[0], rows[2].part[0],
+                        rows[3].part[0], columns);
+        for (std::size_t k = 0; k < 4; ++k) rows[k].part[0] = columns[k];
         return;
     }
 #endif
@@ -47,28 +59,49 @@ HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
 /// k.
 HWY_INLINE void transpose_blocks(hn::Vec<hn::CappedTag<float, 16>> (&rows)[8]) {
     const hn::CappedTag<float, 16> d;
-    const hn::CappedTag<double, 8> pairs;
-    using Part = hn::Vec<hn::CappedTag<float, 16>>;
-    Part quads[2][4];  // of the first four rows and the others: columns k and k + 4
-    HWY_UNROLL(2)
-    for (std::size_t h = 0; h < 2; ++h) {
-        const Part* const r = rows + 4 * h;
-        const auto l01 = hn::BitCast(pairs, hn::InterleaveLower(d, r[0], r[1]));
-        const auto l23 = hn::BitCast(pairs, hn::InterleaveLower(d, r[2], r[3]));
-        const auto u01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r[0], r[1]));
-        const auto u23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r[2], r[3]));
-        quads[h][0] = hn::BitCast(d, hn::InterleaveLower(pairs, l01, l23));
-        quads[h][1] = hn::BitCast(d, hn::InterleaveUpper(pairs, l01, l23));
-        quads[h][2] = hn::BitCast(d, hn::InterleaveLower(pairs, u01, u23));
-        quads[h][3] = hn::BitCast(d, hn::InterleaveUpper(pairs, u01, u23));
-    }
+    hn::Vec<hn::CappedTag<float, 16>> first[4], second[4];  // columns k and k + 4
+    transpose_quads(d, rows[0], rows[1], rows[2], rows[3], first);
+    transpose_quads(d, rows[4], rows[5], rows[6], rows[7], second);
     HWY_UNROLL(4)
     for (std::size_t k = 0; k < 4; ++k) {
-        rows[k] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(quads[1][k]), quads[0][k]);
-        rows[4 + k] = hn::OddEvenBlocks(quads[1][k], hn::SwapAdjacentBlocks(quads[0][k]));
+        rows[k] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(second[k]), first[k]);
+        rows[4 + k] = hn::OddEvenBlocks(second[k], hn::SwapAdjacentBlocks(first[k]));
     }
 }
 #endif
+/// Stores lane i of eight rows of sixteen lanes as eight numbers at place(i). Precondition: sixteen
+/// floats are two registers or one.
+template <class Place>
+HWY_INLINE void store_columns([[maybe_unused]] const Lanes<float, 16>* rows,
+                              [[maybe_unused]] Place&& place) {
+#if HWY_CAP_GE512
+    const hn::CappedTag<float, 8> eight;
+    hn::Vec<hn::CappedTag<float, 16>> columns[8];
+    HWY_UNROLL(8)
+    for (std::size_t k = 0; k < 8; ++k) columns[k] = rows[k].part[0];
+    transpose_blocks(columns);
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < 8; ++i) {
+        hn::Store(hn::LowerHalf(eight, columns[i]), eight, place(i));
+        hn::Store(hn::UpperHalf(eight, columns[i]), eight, place(8 + i));
+    }
+#elif HWY_TARGET != HWY_SCALAR
+    const LaneTag<float, 16> d;
+    HWY_UNROLL(2)
+    for (std::size_t n = 0; n < 2; ++n) {
+        hn::Vec<LaneTag<float, 16>> first[4], second[4];  // columns k and k + 4
+        transpose_quads(d, rows[0].part[n], rows[1].part[n], rows[2].part[n], rows[3].part[n],
+                        first);
+        transpose_quads(d, rows[4].part[n], rows[5].part[n], rows[6].part[n], rows[7].part[n],
+                        second);
+        HWY_UNROLL(4)
+        for (std::size_t k = 0; k < 4; ++k) {
+            hn::Store(hn::ConcatLowerLower(d, second[k], first[k]), d, place(8 * n + k));
+            hn::Store(hn::ConcatUpperUpper(d, second[k], first[k]), d, place(8 * n + 4 + k));
+        }
+    }
+#endif
+}
 /// The lanes of a, b, c and e in this order.
 template <std::size_t N = 16>
 HWY_INLINE Lanes<float, N> joined(const Lanes<float, N / 4>& a, const Lanes<float, N / 4>& b,

@@ -13,6 +13,7 @@
 #include <hwy/cache_control.h>
 
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -59,7 +59,7 @@ HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[
         p[i] = exact::sheared<double>(corner[i][0], corner[i][1], corner[i][2], ox, oy, oz, sx, sy);
     }
     const exact::TriangleEdges<double> edges(p[0], p[1], p[2]);
-    // edges.nonzero() as one comparison: nobody foresees which side of the triangle is seen.
+    // edges.nonzero() as one comparison: which side of the triangle is seen is not predictable.
     if (!(exact::max_lanes(edges.least, -edges.most) > 0.0)) {
         return edges.missed() ? Verdict::Missed : Verdict::Unsure;
     }

@@ -80,9 +80,8 @@ inline constexpr PacketWork kOccludedPacketWork = {12, 10, 14};
 /// After n failures in a row, n at most this value, 2^n - 1 packets are skipped.
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// Largest tree whose coherent rays in no packet, or left over from one in lanes, are traced one by
-/// one, bytes. The stream hides the
-/// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's
-/// branches.
+/// one, bytes. The stream hides the latency of memory; a tree in the caches has little, and
+/// neighbouring rays predict each other's branches.
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
 /// The same for rays that are not coherent, unless most blocks hold triangles: batches take the
 /// stream in such trees of any size. It is not so much faster in small ones that rays which come

@@ -196,7 +196,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
         outside_.closest(table_, rays[i], hits[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = batch_scene(query.mask);
+    const WideBvhScene seen = packet_scene(query, closest_failures_);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence, rays.size())) {
         case Schedule::Single: {
@@ -215,8 +215,6 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
         case Schedule::Stream:
             return kernels.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:
-            // Counts must not depend on earlier batches.
-            if (query.stats == nullptr) seen.failures = &closest_failures_;
             return kernels.closest_coherent(seen, rays, hits, unset, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.closest(table_, rays, hits, query);
@@ -230,7 +228,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         occluded[i] = outside_.occluded(table_, rays[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = batch_scene(query.mask);
+    WideBvhScene seen = packet_scene(query, occluded_failures_);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence, rays.size())) {
         case Schedule::Single: {
@@ -247,7 +245,6 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         case Schedule::Stream:
             return kernels.occluded_batch(seen, rays, occluded, query.stats);
         case Schedule::Packets:
-            if (query.stats == nullptr) seen.failures = &occluded_failures_;
             return kernels.occluded_coherent(seen, rays, occluded, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.occluded(table_, rays, occluded, query);
@@ -278,10 +275,9 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
 
 void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> occluded,
                                         RayQuery query, Coherence coherence) const {
-    WideBvhScene seen = batch_scene(query.mask);
-    if (query.stats == nullptr) seen.failures = &occluded_failures_;
-    if (takes_whole(coherence) &&
-        kernels_.for_stats(query.stats).occluded_columns(seen, rays, occluded, query.stats)) {
+    if (takes_whole(coherence) && kernels_.for_stats(query.stats)
+                                      .occluded_columns(packet_scene(query, occluded_failures_),
+                                                        rays, occluded, query.stats)) {
         return;
     }
     if (streams_alone(coherence, rays.size())) {

@@ -89,6 +89,13 @@ class WideBvhAggregate final : public Aggregate {
         seen.others_alone = schedules_.others_alone();
         return seen;
     }
+    /// The same for packets, some of which are not tried after `failures` of earlier ones; of
+    /// queries that count, all are.
+    [[nodiscard]] WideBvhScene packet_scene(const RayQuery& query, PacketFailures& failures) const {
+        WideBvhScene seen = batch_scene(query.mask);
+        if (query.stats == nullptr) seen.failures = &failures;
+        return seen;
+    }
     /// Traces a part of a batch. Precondition: `hits` are empty, if not `unset`.
     void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, bool unset, RayQuery query,
                        Coherence coherence) const;

@@ -55,10 +55,7 @@ class Environment {
     [[nodiscard]] Search begin(const Vec2& u) const { return picture_->begin(in_sky(u)); }
     void approach(const Search& search) const { picture_->approach(search); }
     void find(Search& search) const { picture_->find(search); }
-    [[nodiscard]] Vec3 direction(const Search& search) const {
-        return world_from_picture_ * picture_->direction(search);
-    }
-    /// `direction` of each search.
+    /// The direction of each search.
     void find_directions(std::span<const Search> searches, Vec3* directions) const;
     [[nodiscard]] bool has_picture() const { return picture_.has_value(); }
     /// `sight` of each direction. Precondition: `has_picture`.

@@ -137,7 +137,7 @@ struct NodeStack {
     }
 
     /// Pushes the children of `bits`, if any, without their entries, those of the highest slots
-    /// first: with a jump for each, or without, for numbers of children that nobody foresees.
+    /// first: with a jump for each, or without, for numbers of children that are not predictable.
     HWY_INLINE void push_one_by_one(std::size_t& height, const WideNodeOf<W>& node,
                                     std::uint32_t bits) {
         for (; bits != 0; bits &= ~(0x80000000u >> std::countl_zero(bits))) {

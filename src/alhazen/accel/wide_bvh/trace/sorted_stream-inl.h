@@ -1,5 +1,5 @@
 /// The stream kernel of the wide BVH: arbitrary rays, interleaved, that wait in lists by what they
-/// do next, so that no branch asks for it. It is one that nobody foresees, several times a ray.
+/// do next: no branch asks for it, which would be mispredicted several times a ray.
 ///
 /// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015;
 /// Tsakok, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing", HPG 2009 (rays of a stream

@@ -21,6 +21,16 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// The box around all children of a node, as planes of a node with one child.
+template <std::size_t W>
+HWY_INLINE void find_box(const WideNodeOf<W>& node, float (&planes)[6][1]) {
+    const std::uint32_t count = node.child_count();
+    for (std::size_t k = 0; k < 3; ++k) {
+        planes[k][0] = *std::min_element(node.planes[k], node.planes[k] + count);
+        planes[k + 3][0] = *std::max_element(node.planes[k + 3], node.planes[k + 3] + count);
+    }
+}
+
 /// The box of a tree with the slack of any ray that begins near: a ray that does not meet it hits
 /// nothing.
 struct TreeBox {
@@ -61,8 +71,7 @@ struct TreeBox {
                        (copysign(one, begin) > zero));
     }
     /// Bits of the rays from a point, with a range from 0 or more, that miss it, by the reciprocals
-    /// of their directions. The
-    /// rounding of differences and products is less than that of SlabRay.
+    /// of their directions. The rounding of differences and products is less than that of SlabRay.
     template <std::size_t N>
     [[nodiscard]] HWY_INLINE std::uint32_t missed_from(const float (&point)[3],
                                                        const Lanes<float, N>* reciprocal) const {
@@ -82,12 +91,13 @@ struct TreeBox {
 template <std::size_t W>
 TreeBox::TreeBox(const WideNodeOf<W>& root, const DistanceBound& slack, const FrameSlack& of_frame)
     : least_length(of_frame.least_length) {
+    float planes[6][1];
+    find_box(root, planes);
     // More than the slack, for the sum rounds.
     const float more = 1.01f * slack.at(kNear);
-    const std::uint32_t count = root.child_count();
     for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = *std::min_element(root.planes[k], root.planes[k] + count) - more;
-        hi[k] = *std::max_element(root.planes[k + 3], root.planes[k + 3] + count) + more;
+        lo[k] = planes[k][0] - more;
+        hi[k] = planes[k + 3][0] + more;
     }
 }
 

@@ -69,9 +69,6 @@ class RayRecords {
   private:
     using F = RayRows::F;
 
-    /// Stores row k of eight as number k of ray i at place(i).
-    template <class Place>
-    static HWY_INLINE void store_eight(const F* rows, Place&& place);
     /// Stores row k as number k of each ray. `Part`: SlabRay or TriangleFilterRay, sixteen numbers.
     template <class Part>
     HWY_INLINE void store(const F (&rows)[16], Part RayRecord::*part);
@@ -79,60 +76,12 @@ class RayRecords {
     alignas(32) float entry_[kRays][kLaneCount];
 };
 
-template <class Place>
-HWY_INLINE void RayRecords::store_eight([[maybe_unused]] const F* rows,
-                                        [[maybe_unused]] Place&& place) {
-#if HWY_CAP_GE512
-    const hn::CappedTag<float, 8> eight;
-    hn::Vec<hn::CappedTag<float, 16>> columns[8];
-    HWY_UNROLL(8)
-    for (std::size_t k = 0; k < 8; ++k) columns[k] = rows[k].part[0];
-    transpose_blocks(columns);
-    HWY_UNROLL(8)
-    for (std::size_t i = 0; i < 8; ++i) {
-        hn::Store(hn::LowerHalf(eight, columns[i]), eight, place(i));
-        hn::Store(hn::UpperHalf(eight, columns[i]), eight, place(8 + i));
-    }
-#elif HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
-    if constexpr (kSupported) {
-        const LaneTag<float, kRays> d;
-        const hn::Repartition<double, LaneTag<float, kRays>> pairs;
-        HWY_UNROLL(2)
-        for (std::size_t part8 = 0; part8 < 2; ++part8) {
-            hn::Vec<LaneTag<float, kRays>> quads[2][4];
-            HWY_UNROLL(2)
-            for (std::size_t h = 0; h < 2; ++h) {
-                const F* const r = rows + 4 * h;
-                const auto in_pairs = [&](std::size_t a, std::size_t b, bool upper) HWY_ATTR {
-                    const auto x = r[a].part[part8], y = r[b].part[part8];
-                    return hn::BitCast(
-                        pairs, upper ? hn::InterleaveUpper(d, x, y) : hn::InterleaveLower(d, x, y));
-                };
-                const auto l01 = in_pairs(0, 1, false), l23 = in_pairs(2, 3, false);
-                const auto u01 = in_pairs(0, 1, true), u23 = in_pairs(2, 3, true);
-                quads[h][0] = hn::BitCast(d, hn::InterleaveLower(pairs, l01, l23));
-                quads[h][1] = hn::BitCast(d, hn::InterleaveUpper(pairs, l01, l23));
-                quads[h][2] = hn::BitCast(d, hn::InterleaveLower(pairs, u01, u23));
-                quads[h][3] = hn::BitCast(d, hn::InterleaveUpper(pairs, u01, u23));
-            }
-            HWY_UNROLL(4)
-            for (std::size_t k = 0; k < 4; ++k) {
-                hn::Store(hn::ConcatLowerLower(d, quads[1][k], quads[0][k]), d,
-                          place(8 * part8 + k));
-                hn::Store(hn::ConcatUpperUpper(d, quads[1][k], quads[0][k]), d,
-                          place(8 * part8 + 4 + k));
-            }
-        }
-    }
-#endif
-}
-
 template <class Part>
 HWY_INLINE void RayRecords::store(const F (&rows)[16], Part RayRecord::*part) {
     static_assert(sizeof(Part) == 16 * sizeof(float));
     HWY_UNROLL(2)
     for (std::size_t half = 0; half < 2; ++half) {
-        store_eight(rows + 8 * half, [&](std::size_t ray) HWY_ATTR {
+        store_columns(rows + 8 * half, [&](std::size_t ray) HWY_ATTR {
             return reinterpret_cast<float*>(&(ray_[ray].*part)) + 8 * half;
         });
     }
@@ -178,7 +127,7 @@ HWY_INLINE std::uint32_t RayRecords::enter(const RayRows& rays, const WideNodeOf
     bits = wanted & bits_of(met);
     if constexpr (kHasEntries<W>) {
         if (bits != 0) {
-            store_eight(entries, [&](std::size_t i) HWY_ATTR { return entry_[i]; });
+            store_columns(entries, [&](std::size_t i) HWY_ATTR { return entry_[i]; });
         }
     }
     return bits;

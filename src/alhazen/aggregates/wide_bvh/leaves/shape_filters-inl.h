@@ -12,122 +12,20 @@
 
 #include <limits>
 
-#include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/rays_at_blocks-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters.h"
-#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Parameters, in the local frame, of the lanes that passed a filter.
-struct FilteredShapes {
-    std::uint32_t sure;               ///< bits of the lanes that are hit for certain
-    HWY_ALIGN float lo[kBlockWidth];  ///< not beyond the first hit
-    HWY_ALIGN float hi[kBlockWidth];  ///< of sure lanes: not before the first hit
-};
-
-/// Three rows of lanes, along the axes of the ray: `F` has a lane for each shape, for one ray, or
-/// for each ray, for one shape.
-template <class F>
-struct AxisRows {
-    F x, y, z;
-};
-
-/// A ray and a block whose shapes it may hit from `s_min` to `s_max`: what a filter takes, and
-/// where it stores what it finds.
-template <class Block>
-struct RayAtBlock {
-    using F = Floats;
-    const Block& block;
-    const TriangleFilterRay& ray;
-    float s_min, s_max;
-    FilteredShapes& out;
-
-    /// `get` takes the block and the ray, or one of them.
-    template <class Get>
-    HWY_INLINE F row(Get&& get) const {
-        return load_lanes(get(block, ray));
-    }
-    template <class Get>
-    HWY_INLINE F number(Get&& get) const {
-        return F(get(*this));
-    }
-    template <class Get>
-    HWY_INLINE std::uint32_t bits(Get&& get) const {
-        return get(block);
-    }
-    HWY_INLINE void set_lo(const F& lo) const { store_lanes(lo, out.lo); }
-    HWY_INLINE void set_none_sure() const { out.sure = 0; }
-    HWY_INLINE void set_sure(std::uint32_t sure, const F& hi) const {
-        out.sure = sure;
-        store_lanes(hi, out.hi);
-    }
-};
-/// Two of them, the second in the upper half of the lanes.
-template <class Block>
-struct TwoRaysAtBlocks {
-    using F = Lanes<float, 2 * kBlockWidth>;
-    const RayAtBlock<Block>&first, &second;
-
-    template <class Get>
-    HWY_INLINE F row(Get&& get) const {
-        return joined(first.row(get), second.row(get));
-    }
-    template <class Get>
-    HWY_INLINE F number(Get&& get) const {
-        const auto upper = lanes_of_bits<float, 2 * kBlockWidth>(kAllLanes << kBlockWidth);
-        return select_lanes(upper, F(get(second)), F(get(first)));
-    }
-    template <class Get>
-    HWY_INLINE std::uint32_t bits(Get&& get) const {
-        return get(first.block) | get(second.block) << kBlockWidth;
-    }
-    HWY_INLINE void set_lo(const F& lo) const {
-        first.set_lo(lower_half(lo));
-        second.set_lo(upper_half(lo));
-    }
-    HWY_INLINE void set_none_sure() const { first.out.sure = second.out.sure = 0; }
-    HWY_INLINE void set_sure(std::uint32_t sure, const F& hi) const {
-        first.set_sure(sure & kAllLanes, lower_half(hi));
-        second.set_sure(sure >> kBlockWidth, upper_half(hi));
-    }
-};
-
-/// Rows along the axes of the ray; `rows` takes a block.
-template <class In, class Rows>
-HWY_INLINE AxisRows<typename In::F> axis_rows(const In& in, Rows&& rows) {
-    const auto row = [&](std::uint32_t TriangleFilterRay::*axis) HWY_ATTR {
-        return in.row([&](const auto& block, const TriangleFilterRay& ray)
-                          HWY_ATTR { return rows(block)[ray.*axis]; });
-    };
-    return {row(&TriangleFilterRay::kx), row(&TriangleFilterRay::ky), row(&TriangleFilterRay::kz)};
-}
-template <class In>
-HWY_INLINE AxisRows<typename In::F> slopes_of(const In& in) {
-    return {in.number([](const auto& at) HWY_ATTR { return at.ray.sx; }),
-            in.number([](const auto& at) HWY_ATTR { return at.ray.sy; }), typename In::F(1.0f)};
-}
 template <class In>
 HWY_INLINE AxisRows<typename In::F> from_center(const In& in) {
     const auto c = axis_rows(
         in, [](const auto& block) HWY_ATTR -> const auto& { return block.center; });
-    return {in.number([](const auto& at) HWY_ATTR { return at.ray.origin[0]; }) - c.x,
-            in.number([](const auto& at) HWY_ATTR { return at.ray.origin[1]; }) - c.y,
-            in.number([](const auto& at) HWY_ATTR { return at.ray.origin[2]; }) - c.z};
+    return origin_of(in) - c;
 }
-template <class F>
-HWY_INLINE F dot_rows(const AxisRows<F>& a, const AxisRows<F>& b) {
-    return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));
-}
-/// a - s b
-template <class F>
-HWY_INLINE AxisRows<F> minus_scaled(const AxisRows<F>& a, const F& s, const AxisRows<F>& b) {
-    return {neg_mul_add(s, b.x, a.x), neg_mul_add(s, b.y, a.y), neg_mul_add(s, b.z, a.z)};
-}
-
 /// The part of the ray within all bodies met so far, by its coordinate along the main axis, or by
 /// its parameter where those of round bodies are (RoundLine).
 template <class F>
@@ -187,14 +85,9 @@ HWY_INLINE std::uint32_t finish_filter(const In& in, const Chord<typename In::F>
     in.set_lo(lo);
     const F s_min = in.number([](const auto& at) HWY_ATTR { return at.s_min; });
     const F s_max = in.number([](const auto& at) HWY_ATTR { return at.s_max; });
-    return in.bits([](const auto&) HWY_ATTR { return kAllLanes; }) &
+    return all_lanes_of(in) &
            ~bits_of((parameters.first > parameters.last) | (lo > s_max) | (hi < s_min));
 }
-template <class In>
-HWY_INLINE typename In::F parameter_unit(const In& in) {
-    return in.number([](const auto& at) HWY_ATTR { return at.ray.sz; });
-}
-
 /// Passes all lanes, from any parameter, for a ray out of the range of float.
 HWY_INLINE bool passes_all(const TriangleFilterRay& ray, FilteredShapes& out) {
     if (HWY_LIKELY(ray.edge_slack < std::numeric_limits<float>::infinity())) return false;

@@ -22,9 +22,9 @@
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/ray_rows-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_crossing-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -96,31 +96,31 @@ class CornersByRay {
         }
     }
     /// Corner i of triangle t, along axes kx, ky, kz.
-    HWY_INLINE void get(const TriangleBlock& block, std::size_t i, std::size_t t,
-                        F (&corner)[3]) const {
+    [[nodiscard]] HWY_INLINE AxisRows<F> get(const TriangleBlock& block, std::size_t i,
+                                             std::size_t t) const {
         const __m512 xy = _mm512_loadu_ps(block.vertex[i][0]);
         const __m512 z = _mm512_castps256_ps512(_mm256_load_ps(block.vertex[i][2]));
         const __m512i lane = _mm512_set1_epi32(static_cast<int>(t));
-        HWY_UNROLL(3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            corner[k].part[0] = hn::Vec<hn::CappedTag<float, 16>>{
+        const auto along = [&](std::size_t k) HWY_ATTR {
+            F row;
+            row.part[0] = hn::Vec<hn::CappedTag<float, 16>>{
                 _mm512_permutex2var_ps(xy, _mm512_add_epi32(row_[k], lane), z)};
-        }
+            return row;
+        };
+        return {along(0), along(1), along(2)};
     }
 
   private:
     __m512i row_[3];
 #else
     HWY_INLINE CornersByRay(const RayRows& rays, const F (&)[16]) : rays_(rays) {}
-    HWY_INLINE void get(const TriangleBlock& block, std::size_t i, std::size_t t,
-                        F (&corner)[3]) const {
+    [[nodiscard]] HWY_INLINE AxisRows<F> get(const TriangleBlock& block, std::size_t i,
+                                             std::size_t t) const {
         const F x(block.vertex[i][0][t]), y(block.vertex[i][1][t]), z(block.vertex[i][2][t]);
         const auto pick = [&](const F& a, const F& b, const F& c) HWY_ATTR {
             return select_lanes(rays_.along_x, a, select_lanes(rays_.along_y, b, c));
         };
-        corner[0] = pick(y, z, x);
-        corner[1] = pick(z, x, y);
-        corner[2] = pick(x, y, z);
+        return {pick(y, z, x), pick(z, x, y), pick(x, y, z)};
     }
 
   private:
@@ -177,31 +177,19 @@ class SharedFilter {
     HWY_INLINE std::uint32_t filter(const CornersByRay& corners, const TriangleBlock& block,
                                     std::size_t t, std::uint32_t rays, std::uint32_t& sure, F& lo,
                                     F& hi) const {
-        struct {
-            F x, y, z;
-        } v[3];
-        F far(0.0f);
+        const AxisRows<F> origin{filter_[0], filter_[1], filter_[2]};
+        ShearedCorners<F> sheared;
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            F corner[3];
-            corners.get(block, i, t, corner);
-            v[i].z = corner[2] - filter_[2];
-            v[i].x = neg_mul_add(filter_[4], v[i].z, corner[0] - filter_[0]);
-            v[i].y = neg_mul_add(filter_[5], v[i].z, corner[1] - filter_[1]);
-            far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
+            sheared.set(i, corners.get(block, i, t) - origin, filter_[4], filter_[5]);
         }
-        const auto edge = [](const auto& a, const auto& b)
-                              HWY_ATTR { return mul_sub(a.x, b.y, a.y * b.x); };
-        const F eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
-        const F error = mul_add(far, filter_[3], filter_[7]);
-        const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-        if ((rays & ~bits_of((least < -error) & (most > error))) == 0) return 0;
-        const F fine = bound_crossing(v, far, eu, ev, ew, filter_[6], filter_[14], lo, hi);
-        // Written so that a NaN is a candidate and not sure.
-        const std::uint32_t candidates = rays & ~bits_of(((least < -fine) & (most > fine)) |
-                                                         (lo > rays_.s_max) | (hi < rays_.s_min));
-        sure = candidates & bits_of(((least > fine) | (most < -fine)) & (lo >= filter_[12]) &
-                                    (hi <= filter_[13]));
+        TriangleCrossing<F> crossing(sheared);
+        if ((rays & ~bits_of(crossing.missed_by_far(filter_[3], filter_[7]))) == 0) return 0;
+        crossing.bound(filter_[6], filter_[14]);
+        lo = crossing.lo;
+        hi = crossing.hi;
+        const std::uint32_t candidates = rays & ~bits_of(crossing.missed(rays_.s_min, rays_.s_max));
+        sure = candidates & bits_of(crossing.sure(filter_[12], filter_[13]));
         return candidates;
     }
 

@@ -53,19 +53,22 @@ struct FloatTriangleTest {
 
     static HWY_INLINE bool find(const TriangleBlock& block, const TriangleFilterRay& ray,
                                 float s_min, float s_max, Found& found) {
-        const ShearedCorners v = sheared_corners(block, ray);
-        const Floats eu = edge_of(v.corner[1], v.corner[2]);
-        found.ev = edge_of(v.corner[2], v.corner[0]);
-        found.ew = edge_of(v.corner[0], v.corner[1]);
+        const AxisRows<Floats> origin{Floats(ray.origin[0]), Floats(ray.origin[1]),
+                                      Floats(ray.origin[2])};
+        ShearedCorners<Floats> v;
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            v.set(i, load_axes(block.vertex[i], ray) - origin, Floats(ray.sx), Floats(ray.sy));
+        }
+        const EdgeFunctions<Floats> edges(v);
         const Floats zero(0.0f);
-        const Floats least = min_lanes(min_lanes(eu, found.ev), found.ew);
-        const Floats most = max_lanes(max_lanes(eu, found.ev), found.ew);
-        const std::uint32_t inside = bits_of((least >= zero) | (most <= zero));
+        const std::uint32_t inside = bits_of((edges.least >= zero) | (edges.most <= zero));
         if (inside == 0) return false;
-        found.det = eu + found.ev + found.ew;
-        found.s =
-            mul_add(eu, v.corner[0].z, mul_add(found.ev, v.corner[1].z, found.ew * v.corner[2].z)) *
-            Floats(ray.sz) / found.det;
+        found.ev = edges.v;
+        found.ew = edges.w;
+        found.det = edges.sum();
+        found.s = edges.weighted(v.corner[0].z, v.corner[1].z, v.corner[2].z) * Floats(ray.sz) /
+                  found.det;
         // A NaN (a triangle seen edge on) is no hit.
         found.sure = inside & bits_of((found.s >= Floats(s_min)) & (found.s <= Floats(s_max)));
         return found.sure != 0;

@@ -2,11 +2,12 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_CANDIDATES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_CANDIDATES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_CANDIDATES_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_CANDIDATES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_CANDIDATES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_CANDIDATES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_CANDIDATES_INL_H_
 #endif
 
 #include <bit>
@@ -15,7 +16,7 @@
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -19,16 +19,16 @@
 ///   division by the sum of the edge functions, where they differ by less than a 64th of the least.
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes and is never sure.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_PINHOLE_INL_H_
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -50,25 +50,18 @@ struct PinholeTriangles {
 
     HWY_INLINE PinholeTriangles(const TriangleBlock& block, const LanePacket& packet) {
         const LanePacket::Pinhole& pinhole = packet.pinhole;
-        const std::size_t axes[3] = {packet.kx, packet.ky, packet.kz};
         const Floats wide[2] = {Floats(pinhole.wide[0]), Floats(pinhole.wide[1])};
-        Floats p[3][3];  // [corner][x, y, z]
+        const AxisRows<Floats> origin{Floats(pinhole.origin[0]), Floats(pinhole.origin[1]),
+                                      Floats(pinhole.origin[2])};
+        ShearedCorners<Floats> sheared;
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            p[i][2] = load_lanes(block.vertex[i][axes[2]]) - Floats(pinhole.origin[2]);
-            HWY_UNROLL(2)
-            for (std::size_t k = 0; k < 2; ++k) {
-                p[i][k] =
-                    neg_mul_add(Floats(pinhole.middle[k]), p[i][2],
-                                load_lanes(block.vertex[i][axes[k]]) - Floats(pinhole.origin[k]));
-            }
+            sheared.set(i, load_axes(block.vertex[i], packet) - origin, Floats(pinhole.middle[0]),
+                        Floats(pinhole.middle[1]));
         }
-        const auto least = [](const Floats& a, const Floats& b, const Floats& c)
-                               HWY_ATTR { return min_lanes(min_lanes(a, b), c); };
-        const auto most = [](const Floats& a, const Floats& b, const Floats& c)
-                              HWY_ATTR { return max_lanes(max_lanes(a, b), c); };
-        const Floats lowest = least(p[0][2], p[1][2], p[2][2]);
-        const Floats highest = most(p[0][2], p[1][2], p[2][2]);
+        const auto& p = sheared.corner;
+        const Floats lowest = least_of(p[0].z, p[1].z, p[2].z);
+        const Floats highest = most_of(p[0].z, p[1].z, p[2].z);
         const Floats deep = max_lanes(highest, -lowest);
         Floats across(0.0f), off;
         LaneMask<float> missed;
@@ -79,12 +72,12 @@ struct PinholeTriangles {
                 Floats lo[3], hi[3];
                 HWY_UNROLL(3)
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const Floats room = wide[k] * abs(p[i][2]);
-                    lo[i] = p[i][k] - room;
-                    hi[i] = p[i][k] + room;
+                    const Floats room = wide[k] * abs(p[i].z), at = k == 0 ? p[i].x : p[i].y;
+                    lo[i] = at - room;
+                    hi[i] = at + room;
                 }
-                left[k] = least(lo[0], lo[1], lo[2]);
-                right[k] = most(hi[0], hi[1], hi[2]);
+                left[k] = least_of(lo[0], lo[1], lo[2]);
+                right[k] = most_of(hi[0], hi[1], hi[2]);
                 across = max_lanes(across, max_lanes(right[k], -left[k]));
             }
             off = Floats(1.1f) *
@@ -109,11 +102,11 @@ struct PinholeTriangles {
                     (ends * Floats(pinhole.most_step) <= Floats(pinhole.sure_max)));
         missed = missed | (back < -beside) |
                  (front * Floats(pinhole.least_step) > Floats(packet.deepest()));
-        missed = missed | find_edges(p, wide, slack);
+        missed = missed | find_edges(sheared, wide, slack);
         met = kAllLanes & ~bits_of(missed);
         flat = (met & ~plain) == 0;
         if (flat) return;
-        for (std::size_t i = 0; i < 3; ++i) store_lanes(p[i][2], z[i]);
+        for (std::size_t i = 0; i < 3; ++i) store_lanes(p[i].z, z[i]);
         store_lanes(aside, place_error);
         store_lanes(lowest, first);
         store_lanes(highest, last);
@@ -122,17 +115,13 @@ struct PinholeTriangles {
 
   private:
     /// The triangles that no ray hits, by their edges.
-    HWY_INLINE LaneMask<float> find_edges(const Floats (&p)[3][3], const Floats (&wide)[2],
-                                          const Floats& slack) {
+    HWY_INLINE LaneMask<float> find_edges(const ShearedCorners<Floats>& sheared,
+                                          const Floats (&wide)[2], const Floats& slack) {
         Floats sum[3], lowest, highest;
         HWY_UNROLL(3)
         for (std::size_t e = 0; e < 3; ++e) {
-            const auto &a = p[(e + 1) % 3], &b = p[(e + 2) % 3];
-            Floats c[3];
-            // The terms in a b cancel.
-            c[0] = mul_sub(a[0], b[1], a[1] * b[0]);
-            c[1] = mul_sub(a[1], b[2], a[2] * b[1]);
-            c[2] = mul_sub(a[2], b[0], a[0] * b[2]);
+            const LinearEdge<Floats> linear(sheared, e);
+            const auto& c = linear.part;
             HWY_UNROLL(3)
             for (std::size_t k = 0; k < 3; ++k) {
                 store_lanes(c[k], edge[e][k]);
@@ -159,26 +148,23 @@ HWY_INLINE bool filter_lanes(const PinholeTriangles& seen, std::size_t lane,
         return mul_add(b, F(seen.edge[e][2][lane]),
                        mul_add(a, F(seen.edge[e][1][lane]), F(seen.edge[e][0][lane])));
     };
-    const F eu = edge(0), ev = edge(1), ew = edge(2);
-    const F error(seen.error[lane]), minus_error = -error;
-    const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-    const std::uint32_t passed = lanes & ~bits_of((least < minus_error) & (most > error));
+    const EdgeFunctions<F> edges(edge(0), edge(1), edge(2));
+    const F error(seen.error[lane]);
+    const std::uint32_t passed = lanes & ~bits_of(edges.mixed(error));
     if (passed == 0) return false;
     const F sz = load_row(packet.reciprocal[packet.kz]);
-    const auto one_sign = [&]() HWY_ATTR { return (least > error) | (most < minus_error); };
     // Written so that a NaN is a candidate and not sure.
     if (seen.flat) {
         out.lo = abs(sz) * F(seen.begin[lane]);
         out.hi = abs(sz) * F(seen.end[lane]);
         out.candidates = passed & ~bits_of(out.lo > load_row(packet.s_max));
         if (out.candidates == 0) return false;
-        out.sure = out.candidates & bits_of(one_sign());
+        out.sure = out.candidates & bits_of(edges.alike(error));
         return true;
     }
-    const F inverse = F(1.0f) / (eu + ev + ew);
+    const F inverse = F(1.0f) / edges.sum();
     const F place =
-        mul_add(eu, F(seen.z[0][lane]), mul_add(ev, F(seen.z[1][lane]), ew * F(seen.z[2][lane]))) *
-        inverse;
+        edges.weighted(F(seen.z[0][lane]), F(seen.z[1][lane]), F(seen.z[2][lane])) * inverse;
     const F s = min_lanes(max_lanes(place, F(seen.first[lane])), F(seen.last[lane])) * sz;
     const F slack =
         abs(sz) * mul_add(F(seen.spread[lane]), abs(inverse), F(seen.place_error[lane]));
@@ -187,7 +173,7 @@ HWY_INLINE bool filter_lanes(const PinholeTriangles& seen, std::size_t lane,
     out.candidates =
         passed & ~bits_of((out.lo > load_row(packet.s_max)) | (out.hi < load_row(packet.s_min)));
     if (out.candidates == 0) return false;
-    out.sure = out.candidates & bits_of(one_sign() & (out.lo >= load_row(packet.sure_min)) &
+    out.sure = out.candidates & bits_of(edges.alike(error) & (out.lo >= load_row(packet.sure_min)) &
                                         (out.hi <= load_row(packet.sure_max)));
     return true;
 }

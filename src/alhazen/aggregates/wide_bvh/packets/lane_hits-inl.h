@@ -4,11 +4,11 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). Ties are decided as by `wins`
 /// (primitives/nearest_hit.h). Sets of rays are bits.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_HITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_HITS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_HITS_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_HITS_INL_H_
 #endif
 
 #include <hwy/cache_control.h>

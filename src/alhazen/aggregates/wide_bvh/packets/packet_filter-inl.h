@@ -19,11 +19,11 @@
 /// `refine_group`, the filter of one ray with rays in the lanes.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_FILTER_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_FILTER_INL_H_
 #endif
 
 #include <algorithm>
@@ -31,10 +31,9 @@
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
-#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_crossing-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -48,13 +47,10 @@ struct ShearedBlock {
     HWY_ALIGN float z[3][kBlockWidth];   ///< relative to the point
 
     HWY_INLINE ShearedBlock(const TriangleBlock& block, const RayPacket& packet) {
-        const std::uint32_t axes[3] = {packet.kx, packet.ky, packet.kz};
+        const AxisRows<Floats> point{Floats(packet.point[0]), Floats(packet.point[1]),
+                                     Floats(packet.point[2])};
         HWY_UNROLL(3)
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                v_[i][k] = load_lanes(block.vertex[i][axes[k]]) - Floats(packet.point[k]);
-            }
-        }
+        for (std::size_t i = 0; i < 3; ++i) v_[i] = load_axes(block.vertex[i], packet) - point;
         find_slopes(packet);
     }
 
@@ -71,30 +67,20 @@ struct ShearedBlock {
     }
     /// Must be called before a ShearedTriangle is constructed.
     HWY_INLINE void find_edges(const RayPacket& packet) {
-        struct {
-            Floats x, y, z;
-        } p[3];
-        Floats far(0.0f), deep(0.0f);
+        ShearedCorners<Floats> p;
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            p[i].z = v_[i][2];
-            store_lanes(p[i].z, z[i]);
-            p[i].x = neg_mul_add(Floats(packet.middle[0]), v_[i][2], v_[i][0]);
-            p[i].y = neg_mul_add(Floats(packet.middle[1]), v_[i][2], v_[i][1]);
-            far = max_lanes(far, max_lanes(abs(p[i].x), abs(p[i].y)));
-            deep = max_lanes(deep, abs(p[i].z));
+            p.set(i, v_[i], Floats(packet.middle[0]), Floats(packet.middle[1]));
         }
-        // Sheared along the middle slope m a corner is at (x, y), and at (x - a z, y - b z) along
-        // the slope m + (a, b); the terms in a b of its edge functions cancel.
         HWY_UNROLL(3)
-        for (std::size_t e = 0; e < 3; ++e) {
-            const auto &a = p[(e + 1) % 3], &b = p[(e + 2) % 3];
-            store_lanes(mul_sub(a.x, b.y, a.y * b.x), edge[e][0]);
-            store_lanes(mul_sub(a.y, b.z, a.z * b.y), edge[e][1]);
-            store_lanes(mul_sub(a.z, b.x, a.x * b.z), edge[e][2]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            store_lanes(v_[i].z, z[i]);
+            const LinearEdge<Floats> linear(p, i);
+            HWY_UNROLL(3)
+            for (std::size_t k = 0; k < 3; ++k) store_lanes(linear.part[k], edge[i][k]);
         }
         const float off = 1.1f * packet.error + std::max(packet.away[0], packet.away[1]);
-        far = mul_add(deep, Floats(packet.widest), far);
+        const Floats far = mul_add(p.along(), Floats(packet.widest), p.across());
         store_lanes(mul_add(far, Floats(5.6f * off), Floats(2.2f * off * off)), error);
     }
 
@@ -103,31 +89,29 @@ struct ShearedBlock {
     /// point, or behind it, has a slope between those of its corners, within the errors of both
     /// over the depth.
     HWY_INLINE void find_slopes(const RayPacket& packet) {
-        const auto least = [](const Floats& a, const Floats& b, const Floats& c)
-                               HWY_ATTR { return min_lanes(min_lanes(a, b), c); };
-        const auto most = [](const Floats& a, const Floats& b, const Floats& c)
-                              HWY_ATTR { return max_lanes(max_lanes(a, b), c); };
         const Floats tiny(0x1p-60f), infinite(std::numeric_limits<float>::infinity());
-        const Floats lowest = least(v_[0][2], v_[1][2], v_[2][2]);
-        const Floats highest = most(v_[0][2], v_[1][2], v_[2][2]);
+        const Floats lowest = least_of(v_[0].z, v_[1].z, v_[2].z);
+        const Floats highest = most_of(v_[0].z, v_[1].z, v_[2].z);
         // The slopes of other triangles are unbounded.
         const LaneMask<float> aside = (lowest > tiny) | (highest < -tiny);
         Floats q[3];
         HWY_UNROLL(3)
-        for (std::size_t i = 0; i < 3; ++i) q[i] = Floats(1.0f) / v_[i][2];
-        const Floats off = Floats(2.0f) * most(abs(q[0]), abs(q[1]), abs(q[2]));
+        for (std::size_t i = 0; i < 3; ++i) q[i] = Floats(1.0f) / v_[i].z;
+        const Floats off = Floats(2.0f) * most_of(abs(q[0]), abs(q[1]), abs(q[2]));
         HWY_UNROLL(2)
         for (std::size_t k = 0; k < 2; ++k) {
+            const Floats AxisRows<Floats>::*along =
+                k == 0 ? &AxisRows<Floats>::x : &AxisRows<Floats>::y;
             const Floats slack = off * Floats(packet.error + packet.away[k]);
-            const Floats a = v_[0][k] * q[0], b = v_[1][k] * q[1], c = v_[2][k] * q[2];
-            slope_lo_[k] = select_lanes(aside, least(a, b, c) - slack, -infinite);
-            slope_hi_[k] = select_lanes(aside, most(a, b, c) + slack, infinite);
+            const Floats a = v_[0].*along * q[0], b = v_[1].*along * q[1], c = v_[2].*along * q[2];
+            slope_lo_[k] = select_lanes(aside, least_of(a, b, c) - slack, -infinite);
+            slope_hi_[k] = select_lanes(aside, most_of(a, b, c) + slack, infinite);
         }
         nearest_ = packet.sign() > 0 ? lowest : -highest;
         farthest_ = packet.sign() > 0 ? highest : -lowest;
     }
 
-    Floats v_[3][3];  ///< [corner][axis] relative to the point
+    AxisRows<Floats> v_[3];  ///< [corner] relative to the point
     Floats slope_lo_[2], slope_hi_[2], nearest_, farthest_;
 };
 
@@ -147,8 +131,8 @@ struct ShearedTriangle {
             for (std::size_t k = 0; k < 3; ++k) edge[e][k] = Floats(block.edge[e][k][lane]);
             z[e] = Floats(block.z[e][lane]);
         }
-        first = min_lanes(min_lanes(z[0], z[1]), z[2]);
-        last = max_lanes(max_lanes(z[0], z[1]), z[2]);
+        first = least_of(z[0], z[1], z[2]);
+        last = most_of(z[0], z[1], z[2]);
         spread = Floats(25.0f) * error * (last - first);
     }
 };
@@ -160,6 +144,16 @@ struct FilteredGroup {
 
     // Not defaulted, as for LaneMask.
     HWY_INLINE FilteredGroup() {}
+
+    /// Whether any of the rays `used` is a candidate.
+    HWY_INLINE bool set(const LaneMask<float, kGroupRays>& outside,
+                        const LaneMask<float, kGroupRays>& inside, std::uint32_t used) {
+        candidates = !outside;
+        for (std::size_t i = 0; i < kParts<float, kGroupRays>; ++i) {
+            sure.part[i] = hn::AndNot(outside.part[i], inside.part[i]);
+        }
+        return (bits_of(candidates) & used) != 0;
+    }
 };
 
 /// As `filter_triangles`; false if certainly no ray hits the triangle.
@@ -171,14 +165,11 @@ HWY_INLINE bool filter_group(const ShearedTriangle& seen, const RayGroup& group,
     const auto edge = [&](std::size_t e) HWY_ATTR {
         return mul_add(b, seen.edge[e][2], mul_add(a, seen.edge[e][1], seen.edge[e][0]));
     };
-    const F eu = edge(0), ev = edge(1), ew = edge(2);
-    const F &error = seen.error, minus_error = -error;
-    const F least = min_lanes(min_lanes(eu, ev), ew);
-    const F most = max_lanes(max_lanes(eu, ev), ew);
-    const auto missed = (least < minus_error) & (most > error);
+    const EdgeFunctions<F> edges(edge(0), edge(1), edge(2));
+    const auto missed = edges.mixed(seen.error);
     if ((group.used & ~bits_of(missed)) == 0) return false;
-    const F inverse = F(1.0f) / (eu + ev + ew);
-    const F place = mul_add(eu, seen.z[0], mul_add(ev, seen.z[1], ew * seen.z[2])) * inverse;
+    const F inverse = F(1.0f) / edges.sum();
+    const F place = edges.weighted(seen.z[0], seen.z[1], seen.z[2]) * inverse;
     const F reciprocal = row(group.reciprocal);
     const F s =
         (min_lanes(max_lanes(place, seen.first), seen.last) + row(group.shift)) * reciprocal;
@@ -187,13 +178,9 @@ HWY_INLINE bool filter_group(const ShearedTriangle& seen, const RayGroup& group,
     out.hi = s + slack;
     // Written so that NaN is a candidate and not sure.
     const auto outside = missed | (out.lo > row(group.s_max)) | (out.hi < row(group.s_min));
-    const auto inside = ((least > error) | (most < minus_error)) & (out.lo >= row(group.sure_min)) &
-                        (out.hi <= row(group.sure_max));
-    for (std::size_t i = 0; i < kParts<float, kGroupRays>; ++i) {
-        out.candidates.part[i] = hn::Not(outside.part[i]);
-        out.sure.part[i] = hn::AndNot(outside.part[i], inside.part[i]);
-    }
-    return (bits_of(out.candidates) & group.used) != 0;
+    const auto inside =
+        edges.alike(seen.error) & (out.lo >= row(group.sure_min)) & (out.hi <= row(group.sure_max));
+    return out.set(outside, inside, group.used);
 }
 
 /// As `filter_group`, by the bound of triangle_filter.h that is finer where a ray begins. `lane`:
@@ -204,31 +191,22 @@ HWY_NOINLINE inline bool refine_group(const TriangleBlock& block, std::size_t la
     using F = GroupFloats;
     const auto row = [](const GroupRow& r) HWY_ATTR { return load_lanes<kGroupRays>(r); };
     const std::size_t kx = packet.kx, ky = packet.ky, kz = packet.kz;
-    const F ox = row(group.origin[kx]), oy = row(group.origin[ky]), oz = row(group.origin[kz]);
-    const F sx = row(group.slope[0]), sy = row(group.slope[1]), sz = row(group.reciprocal);
-    struct {
-        F x, y, z;
-    } v[3];
-    F far(0.0f);
+    const AxisRows<F> origin{row(group.origin[kx]), row(group.origin[ky]), row(group.origin[kz])};
+    const F sx = row(group.slope[0]), sy = row(group.slope[1]);
+    ShearedCorners<F> corners;
     HWY_UNROLL(3)
     for (std::size_t i = 0; i < 3; ++i) {
-        v[i].z = F(block.vertex[i][kz][lane]) - oz;
-        v[i].x = neg_mul_add(sx, v[i].z, F(block.vertex[i][kx][lane]) - ox);
-        v[i].y = neg_mul_add(sy, v[i].z, F(block.vertex[i][ky][lane]) - oy);
-        far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
+        const auto& v = block.vertex[i];
+        const AxisRows<F> corner{F(v[kx][lane]), F(v[ky][lane]), F(v[kz][lane])};
+        corners.set(i, corner - origin, sx, sy);
     }
-    const F eu = edge_of(v[1], v[2]), ev = edge_of(v[2], v[0]), ew = edge_of(v[0], v[1]);
-    const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-    const F fine = bound_crossing(v, far, eu, ev, ew, sz, F(packet.near_error), out.lo, out.hi);
-    const auto outside = ((least < -fine) & (most > fine)) | (out.lo > row(group.s_max)) |
-                         (out.hi < row(group.s_min));
-    const auto inside = ((least > fine) | (most < -fine)) & (out.lo >= row(group.sure_min)) &
-                        (out.hi <= row(group.sure_max));
-    for (std::size_t i = 0; i < kParts<float, kGroupRays>; ++i) {
-        out.candidates.part[i] = hn::Not(outside.part[i]);
-        out.sure.part[i] = hn::AndNot(outside.part[i], inside.part[i]);
-    }
-    return (bits_of(out.candidates) & group.used) != 0;
+    TriangleCrossing<F> crossing(corners);
+    crossing.bound(row(group.reciprocal), F(packet.near_error));
+    out.lo = crossing.lo;
+    out.hi = crossing.hi;
+    const auto outside = crossing.missed(row(group.s_min), row(group.s_max));
+    const auto inside = crossing.sure(row(group.sure_min), row(group.sure_max));
+    return out.set(outside, inside, group.used);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,11 +2,12 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_) == \
+    defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_COHERENT_QUERIES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_COHERENT_QUERIES_INL_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -18,8 +19,9 @@
 
 #include "alhazen/accel/wide_bvh/trace/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_queries-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -114,16 +116,9 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
-inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
-    return {layout.tree.nodes.data(),
-            {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
-             layout.others.data()},
-            {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)}};
-}
-
-/// Whether packets in lanes of `rays` rays were faster than the stream: what a ray does when it
-/// goes on alone takes longer there than some fourteen of its visits with the others. Where only
-/// every third ray does so once, there is little to gain.
+/// Whether packets in lanes of `rays` rays are as fast as the stream. A ray that goes on alone
+/// costs about fourteen visits in lanes; packets that not more than every third ray leaves always
+/// pay.
 [[nodiscard]] HWY_INLINE bool pays(const LaneWork& work, std::size_t rays) {
     return work.together >= 14 * work.alone || 3 * work.alone <= rays;
 }
@@ -144,7 +139,8 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
         const FrameSlack& slack = layout.frame.slack;
         box = TreeBox(layout.tree.nodes[root.index()], slack.slab, slack);
     }
-    const LaneBatch batch{scene, prefetch_table_of(layout), {layout.frame, rays}, box};
+    const LaneBatch batch{
+        scene, prefetch_table_of<WideNode::kWidth>(layout), {layout.frame, rays}, box};
     PacketTrials trials(kTries ? scene.failures : nullptr);
     for (std::size_t i = 0; i < rays.size();) {
         const std::size_t end = kTries ? std::min(i + kTriedRays, rays.size()) : rays.size();
@@ -196,8 +192,8 @@ HWY_INLINE bool has_lane_packets(const WideBvhScene& scene) {
 inline constexpr std::size_t kClearedTogether = 512;
 
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet, apart(first, count)
-/// for those of any hit that are better off in the stream. Rays and results as
-/// in WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
+/// for those of any hit that are better off in the stream. Rays and results as in
+/// WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
 template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise,
           class Apart>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
@@ -207,8 +203,10 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
     constexpr bool kAnyHit = !InLanes::kOrdered;
     if constexpr (kAnyHit || kParts<float, 16> <= kMostLaneRegisters) {
         if (has_lane_packets<kAnyHit>(scene)) {
-            return run_lanes < InLanes, kAnyHit && !Stats::kCounts > (scene, GivenRays(rays), sink,
-                                                                      stats, otherwise, apart);
+            // Counts must not depend on which packets pay.
+            constexpr bool kTries = kAnyHit && !Stats::kCounts;
+            return run_lanes<InLanes, kTries>(scene, GivenRays(rays), sink, stats, otherwise,
+                                              apart);
         }
     }
     if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,
@@ -220,7 +218,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         }
         return;
     }
-    const PrefetchTable prefetch_table = prefetch_table_of(layout);
+    const PrefetchTable prefetch_table = prefetch_table_of<WideNode::kWidth>(layout);
     PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);

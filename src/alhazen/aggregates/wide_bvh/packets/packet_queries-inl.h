@@ -4,11 +4,11 @@
 /// Source: packet_filter-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_QUERIES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_QUERIES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_QUERIES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_QUERIES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_QUERIES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_PACKET_QUERIES_INL_H_
 #endif
 
 #include <array>
@@ -16,11 +16,10 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_filter-inl.h"
-#include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_candidates-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/packet_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/primitives/primitive_lanes.h"
 
@@ -115,11 +114,7 @@ class PacketLeaves {
             HWY_ALIGN float depth[kBlockWidth];
             store_lanes(nearest, depth);
             while (rest != 0) {
-                auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
-                    const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                    if (depth[other] < depth[lane]) lane = other;
-                }
+                const std::size_t lane = lane_of_least(rest, depth);
                 rest &= ~(1u << lane);
                 if (!blocks->ids[lane].used()) continue;
                 const BlockBoxes::Bounds b = boxes.bounds(lane);

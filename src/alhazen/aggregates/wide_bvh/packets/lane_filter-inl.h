@@ -6,17 +6,17 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
 /// never sure.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_FILTER_INL_H_
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_crossing-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -38,7 +38,7 @@ HWY_INLINE std::uint32_t intersect_triangles(const TriangleBlock& block, const L
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats a = load_lanes(block.vertex[0][k]), b = load_lanes(block.vertex[1][k]);
         const Floats c = load_lanes(block.vertex[2][k]);
-        const Floats least = min_lanes(min_lanes(a, b), c), most = max_lanes(max_lanes(a, b), c);
+        const Floats least = least_of(a, b, c), most = most_of(a, b, c);
         const bool up = packet.near_row[k] == k;
         near[k] = up ? least : most;
         far[k] = up ? most : least;
@@ -46,42 +46,41 @@ HWY_INLINE std::uint32_t intersect_triangles(const TriangleBlock& block, const L
     return packet.intersect_planes(near, far, entry);
 }
 
+/// The i-th of three rows of a block, for all rays, along their axes.
+HWY_INLINE AxisRows<PacketFloats> for_rays(const float (&rows)[3][kBlockWidth], std::size_t i,
+                                           const LanePacket& packet) {
+    return {PacketFloats(rows[packet.kx][i]), PacketFloats(rows[packet.ky][i]),
+            PacketFloats(rows[packet.kz][i])};
+}
+HWY_INLINE AxisRows<PacketFloats> origin_of(const LanePacket& packet) {
+    return {load_row(packet.origin[packet.kx]), load_row(packet.origin[packet.ky]),
+            load_row(packet.origin[packet.kz])};
+}
+
 /// False when no ray of `lanes` hits the triangle for all one knows; then `out` is not set.
 HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const LanePacket& packet,
                              std::uint32_t lanes, FilteredLanes& out) {
     using F = PacketFloats;
-    const std::size_t kx = packet.kx, ky = packet.ky, kz = packet.kz;
-    const F ox = load_row(packet.origin[kx]), oy = load_row(packet.origin[ky]);
-    const F oz = load_row(packet.origin[kz]);
+    const AxisRows<F> origin = origin_of(packet);
     const F sx = load_row(packet.slope[0]), sy = load_row(packet.slope[1]);
-    struct {
-        F x, y, z;
-    } v[3];
-    F far(0.0f);
+    ShearedCorners<F> corners;
     HWY_UNROLL(3)
     for (std::size_t i = 0; i < 3; ++i) {
-        v[i].z = F(block.vertex[i][kz][lane]) - oz;
-        v[i].x = neg_mul_add(sx, v[i].z, F(block.vertex[i][kx][lane]) - ox);
-        v[i].y = neg_mul_add(sy, v[i].z, F(block.vertex[i][ky][lane]) - oy);
-        far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
+        corners.set(i, for_rays(block.vertex[i], lane, packet) - origin, sx, sy);
     }
-    const auto edge = [](const auto& a, const auto& b)
-                          HWY_ATTR { return mul_sub(a.x, b.y, a.y * b.x); };
-    const F eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
-    const F error = mul_add(far, F(packet.edge_slack), F(packet.edge_slack_min));
-    const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-    if ((lanes & ~bits_of((least < -error) & (most > error))) == 0) return false;
-
-    const F sz = load_row(packet.reciprocal[kz]);
-    const F fine = bound_crossing(v, far, eu, ev, ew, sz, F(packet.near_error), out.lo, out.hi);
-    // Written so that a NaN is a candidate and not sure.
+    TriangleCrossing<F> crossing(corners);
+    if ((lanes &
+         ~bits_of(crossing.missed_by_far(F(packet.edge_slack), F(packet.edge_slack_min)))) == 0) {
+        return false;
+    }
+    crossing.bound(load_row(packet.reciprocal[packet.kz]), F(packet.near_error));
     out.candidates =
-        lanes & ~bits_of(((least < -fine) & (most > fine)) | (out.lo > load_row(packet.s_max)) |
-                         (out.hi < load_row(packet.s_min)));
+        lanes & ~bits_of(crossing.missed(load_row(packet.s_min), load_row(packet.s_max)));
     if (out.candidates == 0) return false;
     out.sure = out.candidates &
-               bits_of(((least > fine) | (most < -fine)) & (out.lo >= load_row(packet.sure_min)) &
-                       (out.hi <= load_row(packet.sure_max)));
+               bits_of(crossing.sure(load_row(packet.sure_min), load_row(packet.sure_max)));
+    out.lo = crossing.lo;
+    out.hi = crossing.hi;
     return true;
 }
 
@@ -95,17 +94,9 @@ HWY_INLINE std::uint32_t reaching(const Chord<PacketFloats>& parameters, const L
                             (parameters.last + slack < load_row(packet.s_min)));
 }
 
-/// The i-th of three rows of a block, for all rays, along their axes.
-HWY_INLINE AxisRows<PacketFloats> for_rays(const float (&rows)[3][kBlockWidth], std::size_t i,
-                                           const LanePacket& packet) {
-    return {PacketFloats(rows[packet.kx][i]), PacketFloats(rows[packet.ky][i]),
-            PacketFloats(rows[packet.kz][i])};
-}
 HWY_INLINE AxisRows<PacketFloats> from_center(const float (&center)[3][kBlockWidth], std::size_t i,
                                               const LanePacket& packet) {
-    const AxisRows<PacketFloats> c = for_rays(center, i, packet);
-    return {load_row(packet.origin[packet.kx]) - c.x, load_row(packet.origin[packet.ky]) - c.y,
-            load_row(packet.origin[packet.kz]) - c.z};
+    return origin_of(packet) - for_rays(center, i, packet);
 }
 HWY_INLINE AxisRows<PacketFloats> slopes_of(const LanePacket& packet) {
     return {load_row(packet.slope[0]), load_row(packet.slope[1]), PacketFloats(1.0f)};

@@ -5,10 +5,10 @@
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_8.cpp"
+#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/kernels/wide_bvh_kernels_8.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/aggregates/wide_bvh/kernels-inl.h"
+#include "alhazen/aggregates/wide_bvh/kernels/kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -2,11 +2,11 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_DISPATCH_INL_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -22,6 +22,10 @@
 #include "alhazen/accel/wide_bvh/trace/sorted_stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_prefetch-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/ray_records-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shared_descent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -85,11 +89,7 @@ class BatchSource {
         const WideBvh& tree = scene.layout->tree;
         if (tree.root.is_leaf()) return;
         root_ = &nodes_of<W>(tree)[tree.root.index()];
-        for (std::size_t k = 0; k < 3; ++k) {
-            root_box_[k][0] = *std::ranges::min_element(root_->planes[k]);
-            root_box_[k + 3][0] = *std::ranges::max_element(
-                std::span(root_->planes[k + 3]).first(root_->child_count()));
-        }
+        find_box(*root_, root_box_);
         if (!Stats::kCounts) {
             const LocalFrame& frame = scene.layout->frame;
             tree_box_ = TreeBox(*root_, Query::slab_slack(frame), frame.slack);
@@ -329,13 +329,7 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
     const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
-    const bool indexed = layout.is_indexed();
-    const void* triangles = layout.triangles.data();
-    if (indexed) triangles = layout.indices.data();
-    const PrefetchTable prefetch_table(
-        nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
-        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
-         sizeof(FrustumBlock), sizeof(BoxBlock)});
+    const PrefetchTable prefetch_table = prefetch_table_of<W>(layout);
     BatchSource<Query, W, Result, Stats> source(scene, prefetch_table, rays, results, stats);
     const bool fetches = !stays_in_caches<W>(layout, rays.size());
     traverse_sorted<Query>(nodes, root, prefetch_table, fetches, source, stats);
@@ -347,7 +341,6 @@ HWY_NOINLINE void run_batch(const WideBvhScene& scene, const GivenRays& rays,
 template <class Query>
 HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std::size_t count,
                               FilteredShapes* found) {
-    constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
     const auto in_float = [](const Query& query) HWY_ATTR {
         return query.filter.edge_slack < std::numeric_limits<float>::infinity();
     };
@@ -357,7 +350,7 @@ HWY_INLINE void filter_recent(const BoxBlock& block, Query* const* queries, std:
                                     found[i]};
     };
     for (std::size_t i = 0; i < count; ++i) {
-        if (kPairs && i + 1 < count && in_float(*queries[i]) && in_float(*queries[i + 1])) {
+        if (kPairsRays && i + 1 < count && in_float(*queries[i]) && in_float(*queries[i + 1])) {
             (void)shape_candidates(at(i), at(i + 1));
             ++i;
             continue;

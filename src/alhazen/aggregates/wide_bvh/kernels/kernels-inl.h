@@ -3,19 +3,19 @@
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_KERNELS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_KERNELS_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_KERNELS_INL_H_
 #endif
 
 #include <algorithm>
 #include <span>
 
-#include "alhazen/aggregates/wide_bvh/coherent_queries-inl.h"
-#include "alhazen/aggregates/wide_bvh/dispatch-inl.h"
+#include "alhazen/aggregates/wide_bvh/kernels/dispatch-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/coherent_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 
 HWY_BEFORE_NAMESPACE();

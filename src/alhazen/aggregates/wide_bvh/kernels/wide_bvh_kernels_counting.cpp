@@ -1,15 +1,15 @@
 // Kernels for nodes of 4, 8 and 16 children, counting.
-#include "alhazen/aggregates/wide_bvh/comparison_targets.h"
+#include "alhazen/aggregates/wide_bvh/kernels/comparison_targets.h"
 // Included after it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_counting.cpp"
+#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/kernels/wide_bvh_kernels_counting.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/aggregates/wide_bvh/kernels-inl.h"
+#include "alhazen/aggregates/wide_bvh/kernels/kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -4,11 +4,11 @@
 /// Source: lane_filter-inl.h, shapes/span_lanes-inl.h, shapes/polygons/polygon_lanes.h: the bits
 /// are those of single rays. Conventions: included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_PACKETS_LANE_SHAPES_INL_H_
 #endif
 
 #include <bit>
@@ -20,10 +20,10 @@
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
+#include "alhazen/aggregates/wide_bvh/packets/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/shapes/polygons/polygon_lanes.h"
 #include "alhazen/shapes/span_lanes-inl.h"
@@ -50,9 +50,9 @@ struct GroupHits {
     }
 };
 
-/// `Derived` offers `crossed(group, id, hits)` for eight rays, `sphere` and `shape` for one
-/// (lone_ray-inl.h), which return those that need no more; and `left()` when a leaf has limited
-/// rays.
+/// `Derived` offers `sphere`, `first_of` and `shape` for one ray (lone_ray-inl.h), `accept` for a
+/// hit (lane_leaves-inl.h), which return true if the ray needs no more; and `left()` when a leaf
+/// has limited rays.
 template <class Derived>
 class LaneShapes {
   public:
@@ -79,7 +79,7 @@ class LaneShapes {
             }
             while (met != 0 && lanes != 0) {
                 auto lane = static_cast<std::size_t>(std::countr_zero(met));
-                if constexpr (Derived::kOrdered) lane = nearest_of(met, entry);
+                if constexpr (Derived::kOrdered) lane = lane_of_least(met, entry);
                 met &= ~(1u << lane);
                 const PrimitiveId id = block.ids[lane].id();
                 if (!block.ids[lane].used() || !scene_.sees(id)) continue;
@@ -139,7 +139,7 @@ class LaneShapes {
         }
         while (any != 0) {
             auto lane = static_cast<std::size_t>(std::countr_zero(any));
-            if constexpr (Derived::kOrdered) lane = nearest_of(any, entry);
+            if constexpr (Derived::kOrdered) lane = lane_of_least(any, entry);
             any &= ~(1u << lane);
             std::uint32_t rest = rays_at[lane];
             if constexpr (Derived::kOrdered) {
@@ -164,7 +164,8 @@ class LaneShapes {
     HWY_INLINE void filter_by_rays(const Block& block, std::uint32_t lanes,
                                    FilteredShapes (&filtered)[kPacketLanes],
                                    std::uint32_t (&passed)[kPacketLanes]) {
-        const bool pairs = kPairs && packet_.edge_slack < std::numeric_limits<float>::infinity();
+        const bool pairs =
+            kPairsRays && packet_.edge_slack < std::numeric_limits<float>::infinity();
         while (lanes != 0) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             lanes &= lanes - 1;
@@ -198,16 +199,6 @@ class LaneShapes {
         }
         return false;
     }
-    /// The lane with the least entry.
-    [[nodiscard]] static HWY_INLINE std::size_t nearest_of(std::uint32_t lanes,
-                                                           const float* entry) {
-        auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
-            const auto other = static_cast<std::size_t>(std::countr_zero(lanes));
-            if (entry[other] < entry[lane]) lane = other;
-        }
-        return lane;
-    }
     /// Tests a shape with rays. Returns those that need no more.
     template <class Block, class Stats>
     HWY_INLINE std::uint32_t meet(const Block& block, std::size_t lane, std::uint32_t rays,
@@ -225,33 +216,34 @@ class LaneShapes {
             return intersect_other(id, rays, stats);
         }
     }
-    /// Tests a shape of a known kind ray by ray. Returns the rays that need no more, as below.
-    template <class S, class Stats>
-    HWY_INLINE std::uint32_t intersect_first(PrimitiveId id, const S& shape, std::uint32_t lanes,
-                                             Stats stats) {
+    /// Calls test(i, s_max) ray by ray. Returns those for which it does, which need no more.
+    template <class Test>
+    HWY_INLINE std::uint32_t one_by_one(std::uint32_t lanes, Test&& test) {
         std::uint32_t done = 0;
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             float s_max = packet_.s_max[i];
-            if (derived().first_of(i, id, shape, s_max, stats)) done |= 1u << i;
+            if (test(i, s_max)) done |= 1u << i;
         }
         return done;
     }
-    /// Tests a shape ray by ray. Returns the rays that need no more, as the two below.
+    /// Tests a shape of a known kind. Returns the rays that need no more, as the others below.
+    template <class S, class Stats>
+    HWY_INLINE std::uint32_t intersect_first(PrimitiveId id, const S& shape, std::uint32_t lanes,
+                                             Stats stats) {
+        return one_by_one(lanes, [&](std::size_t i, float& s_max) HWY_ATTR {
+            return derived().first_of(i, id, shape, s_max, stats);
+        });
+    }
     template <class Stats>
     HWY_INLINE std::uint32_t intersect_alone(PrimitiveId id, std::uint32_t lanes, Stats stats) {
-        std::uint32_t done = 0;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
-            float s_max = packet_.s_max[i];
-            if (derived().shape(i, id, s_max, stats)) done |= 1u << i;
-        }
-        return done;
+        return one_by_one(lanes, [&](std::size_t i, float& s_max)
+                                     HWY_ATTR { return derived().shape(i, id, s_max, stats); });
     }
     template <class Stats>
     HWY_NOINLINE std::uint32_t intersect_sphere(PrimitiveId id, const Sphere& sphere,
                                                 std::uint32_t lanes, Stats stats) {
-        std::uint32_t done = intersect_together(
+        const std::uint32_t done = intersect_together(
             id, lanes,
             [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
                 LaneCrossings found;
@@ -259,12 +251,9 @@ class LaneShapes {
                 hits.set(found);
             },
             stats);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
-            float s_max = packet_.s_max[i];
-            if (derived().sphere(i, id, sphere, s_max, stats)) done |= 1u << i;
-        }
-        return done;
+        return done | one_by_one(lanes, [&](std::size_t i, float& s_max) HWY_ATTR {
+                   return derived().sphere(i, id, sphere, s_max, stats);
+               });
     }
     template <class Stats>
     HWY_NOINLINE std::uint32_t intersect_frustum(PrimitiveId id, std::uint32_t lanes, Stats stats) {
@@ -314,7 +303,11 @@ class LaneShapes {
             const std::uint32_t decided = here & ~hits.unsure;
             stats.primitives(static_cast<std::uint64_t>(std::popcount(decided)));
             stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(hits.hit)));
-            if (hits.hit != 0) done |= derived().crossed(g, id, hits);
+            for_each_lane(hits.hit, [&](std::size_t lane) HWY_ATTR {
+                const std::size_t i = g * kRayLanes + lane;
+                float s_max = std::numeric_limits<float>::infinity();
+                if (derived().accept(i, id, hits.of_ray[lane], s_max)) done |= 1u << i;
+            });
             lanes &= ~(decided << (g * kRayLanes));
         }
         return done;
@@ -337,8 +330,6 @@ class LaneShapes {
     /// Where a block has this many rays for each shape, or more, each shape is tested against all
     /// rays at once: for closest hits, tests in double are as well.
     static constexpr int kRaysPerShape = Derived::kOrdered ? 1 : 2;
-    /// Whether the filters of two rays are one.
-    static constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
 };
 
 }  // namespace HWY_NAMESPACE
