@@ -28,7 +28,7 @@ std::uint32_t met(const WideNode& node, const LocalFrame& frame, const Ray& ray)
     SlabRay slabs;
     if (!make_ray(frame, frame.slack.slab, ray, slabs, [](const AxisLanes&) {})) return 0;
     Floats entry;
-    return bits_of(intersect_children(node, slabs, slabs.s_max, entry));
+    return bits_of(intersect_children(node, slabs, Floats(slabs.s_max), entry));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_query-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/nearest_triangles-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
 #include "alhazen/primitives/unused_shear.h"
 
@@ -60,6 +61,21 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
             if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
+    }
+    /// As `visit`; lowers `limit`, which is s_max in every lane, as well.
+    template <class Stats>
+    HWY_INLINE void visit_within(NodeRef ref, Floats& limit, Stats stats) requires Test::kExact {
+        if (HWY_UNLIKELY(static_cast<LeafType>(ref.kind()) != LeafType::Triangles ||
+                         this->blocks == nullptr || !scene.sees_all())) {
+            (void)this->visit(ref, stats);
+            limit = Floats(s_max);
+            return;
+        }
+        const TriangleBlock* block = this->blocks + ref.offset();
+        for (const TriangleBlock* end = block + ref.count(); block < end; ++block) {
+            stats.primitives(used_lanes(*block));
+            visit_near(*block, limit, stats);
+        }
     }
     /// The nearest of a block is the hit.
     template <class Stats>
@@ -130,6 +146,23 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     }
 
   private:
+    template <class Stats>
+    HWY_INLINE void visit_near(const TriangleBlock& block, Floats& limit, Stats stats) {
+        NearTriangles found;
+        find_near_triangles(block, this->filter, this->slabs.s_min, limit, found);
+        if (found.candidates == 0) return;
+        s_max = first_lane(limit);
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            // Written so that NaN is a candidate.
+            if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
+            while (HWY_UNLIKELY(!candidates.add(block, lane, found.lo[lane]))) {
+                finish(stats);
+                shrink();
+                limit = Floats(s_max);
+            }
+        }
+    }
     template <class Stats>
     HWY_NOINLINE void resolve(const TriangleBlock& block, std::size_t lane, Stats stats) {
         // Out of memory, as no address of it is taken.

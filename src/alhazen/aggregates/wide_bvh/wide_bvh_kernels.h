@@ -35,6 +35,8 @@ class WideBvhScene {
     std::uint32_t largest_leaf = 0, largest_leaf_slot = 0;
     bool waits = false;  ///< rays that leave a packet in lanes are traced several in turn
 
+    /// Whether the rays see every primitive.
+    [[nodiscard]] bool sees_all() const { return all_seen_; }
     [[nodiscard]] bool sees(PrimitiveId id) const {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
     }
@@ -52,7 +54,7 @@ class WideBvhScene {
   private:
     void expect_indices(PrimitiveId id) const;
 
-    bool all_seen_;  ///< every primitive is visible
+    bool all_seen_;
 };
 
 /// The queries of `Aggregate` on the bounded primitives. Precondition: the tree is not empty. Hits

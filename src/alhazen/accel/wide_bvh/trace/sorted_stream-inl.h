@@ -211,7 +211,7 @@ class SortedStream {
         stats_.nodes(1);
         stats_.boxes(node.child_count());
         Lanes<float, W> entries, exits;
-        cross_children(node, query.slabs, query.s_max, entries, exits);
+        cross_children(node, query.slabs, Lanes<float, W>(query.s_max), entries, exits);
         slot.height = slot.stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                                 query.slabs.near.octant);
     }

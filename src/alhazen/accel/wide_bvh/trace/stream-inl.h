@@ -120,7 +120,7 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
         stats.nodes(1);
         stats.boxes(node.child_count());
         Lanes<float, W> entries, exits;
-        cross_children(node, query.slabs, query.s_max, entries, exits);
+        cross_children(node, query.slabs, Lanes<float, W>(query.s_max), entries, exits);
         height = stack.template push<Query::kOrdered>(height, node, entries, exits,
                                                       query.slabs.near.octant);
     }

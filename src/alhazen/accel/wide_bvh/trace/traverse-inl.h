@@ -6,7 +6,9 @@
 /// lanes, but for one and two hit apart; the next by a jump that can be foreseen (`child_of`).
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
 /// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
-/// searched; boxes that begin exactly there are visited. Any-hit queries leave it as it is.
+/// searched; boxes that begin exactly there are visited. Any-hit queries leave it as it is. Others
+/// may have `void visit_within(NodeRef, Lanes<float, W>& s_max, stats)` for nodes of W children,
+/// which lowers the parameter in every lane of `s_max`, too.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
@@ -32,8 +34,9 @@ namespace HWY_NAMESPACE {
 
 /// Where the ray enters and leaves the boxes of the children: it meets those that it enters first.
 template <std::size_t W>
-HWY_INLINE void cross_children(const WideNodeOf<W>& node, const SlabRay& ray, float s_max,
-                               Lanes<float, W>& entry, Lanes<float, W>& exit) {
+HWY_INLINE void cross_children(const WideNodeOf<W>& node, const SlabRay& ray,
+                               const Lanes<float, W>& s_max, Lanes<float, W>& entry,
+                               Lanes<float, W>& exit) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
     F near[3], far[3];
@@ -47,13 +50,14 @@ HWY_INLINE void cross_children(const WideNodeOf<W>& node, const SlabRay& ray, fl
     }
     // larger_by_bits is exact, as s_min is not negative.
     entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(ray.s_min)));
-    exit = smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    exit = smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], s_max));
 }
 
 /// The children whose boxes the ray meets. `entry`: its parameter where it enters each.
 template <std::size_t W>
 HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabRay& ray,
-                                                 float s_max, Lanes<float, W>& entry) {
+                                                 const Lanes<float, W>& s_max,
+                                                 Lanes<float, W>& entry) {
     Lanes<float, W> exit;
     cross_children(node, ray, s_max, entry, exit);
     return entry <= exit;
@@ -134,7 +138,8 @@ HWY_INLINE void fetch_beyond(const WideNodeOf<W>* nodes, NodeRef later, const Sl
     if (later.is_leaf()) return;
     const WideNodeOf<W>& node = nodes[later.index()];
     Lanes<float, W> entries;
-    const std::uint32_t hit = bits_of(intersect_children(node, ray, leaf.s_max, entries));
+    const std::uint32_t hit =
+        bits_of(intersect_children(node, ray, Lanes<float, W>(leaf.s_max), entries));
     if (hit != 0) fetch_child(nodes, node.child[std::countr_zero(hit)], leaf);
 }
 
@@ -193,9 +198,16 @@ template <bool kOrdered, bool kFar = false, std::size_t W, class Leaf, class Sta
 HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack<W>& stack,
                               std::size_t height, const SlabRay& ray, Follows follows, Leaf& leaf,
                               Stats stats) {
+    // In a register: boxes wait for it, and leaves lower it.
+    Lanes<float, W> s_max(leaf.s_max);
     while (true) {
         if (ref.is_leaf()) {
-            if (leaf.visit(ref, stats)) return true;
+            if constexpr (requires { leaf.visit_within(ref, s_max, stats); }) {
+                leaf.visit_within(ref, s_max, stats);
+            } else {
+                if (leaf.visit(ref, stats)) return true;
+                s_max = Lanes<float, W>(leaf.s_max);
+            }
         } else {
             const WideNodeOf<W>& node = nodes[ref.index()];
             // Their line is read when the planes have been tested.
@@ -203,7 +215,7 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
             stats.nodes(1);
             stats.boxes(node.child_count());
             Lanes<float, W> entries;
-            const LaneMask<float, W> met = intersect_children(node, ray, leaf.s_max, entries);
+            const LaneMask<float, W> met = intersect_children(node, ray, s_max, entries);
             const std::uint32_t hit = bits_of(met);
             if (hit != 0) {
                 ref = next_child<kOrdered, kFar>(nodes, node, stack, height, entries, met, hit,
@@ -222,7 +234,7 @@ HWY_INLINE bool traverse_from(const WideNodeOf<W>* nodes, NodeRef ref, NodeStack
             --height;
             if constexpr (!kOrdered) break;
         } while (std::bit_cast<std::int32_t>(stack.entry[height]) >
-                 std::bit_cast<std::int32_t>(leaf.s_max));
+                 std::bit_cast<std::int32_t>(first_lane(s_max)));
         ref = NodeRef::from_bits(stack.child[height]);
     }
 }

@@ -136,9 +136,11 @@ struct TriangleCrossing {
     [[nodiscard]] HWY_INLINE auto missed(const F& s_min, const F& s_max) const {
         return edges_.mixed(error_) | (lo > s_max) | (hi < s_min);
     }
+    /// After `bound`: the lanes whose lines cross their triangle for certain.
+    [[nodiscard]] HWY_INLINE auto crossed() const { return edges_.alike(error_); }
     /// After `bound`: the lanes that cross their triangle in a range for certain.
     [[nodiscard]] HWY_INLINE auto sure(const F& s_min, const F& s_max) const {
-        return edges_.alike(error_) & (lo >= s_min) & (hi <= s_max);
+        return crossed() & (lo >= s_min) & (hi <= s_max);
     }
 
   private:
