@@ -15,7 +15,7 @@ namespace alhazen {
 
 /// Changes made to a description on its way to the compiled scene.
 struct ImportConventions {
-    /// Every material colour c of the file is used as floor(255 c) / 255. Applied by `compile`.
+    /// Colours c of materials, not textures, are used as floor(255 c) / 255. Applied by `compile`.
     bool truncate_material_colors = false;
     /// A file without lights gets one at the eye (`complete_view`); false: its darkness is
     /// intended.

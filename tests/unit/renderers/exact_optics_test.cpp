@@ -230,6 +230,34 @@ TEST(ExactOptics, ASolidOfSeveralMediaAbsorbsByTheLengthInEach) {
     expect_near(center(maker.compile()), left, 1e-9);
 }
 
+TEST(ExactOptics, AWallIsOneBoundaryWhateverTheLeastDistance) {
+    const Rgb first{0.9, 0.8, 0.7}, second{0.5, 0.99, 0.3}, third{0.8, 0.4, 0.6};
+    for (const double least : {0.0, 1e-6, 0.1}) {
+        SceneMaker maker = room(false, true, 20);
+        maker.description().conventions.shading.min_distance = least;
+        const MaterialId a = maker.material(glass(1.0, first));
+        const MaterialId b = maker.material(glass(1.0, second));
+        const MaterialId c = maker.material(glass(1.0, third));
+        const ObjectIndex tank = maker.object("tank");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(BoxShape{{-4, -4, 0}, {4, 4, 1}}, a, {}, tank);
+        maker.add(BoxShape{{-4, -4, 1}, {4, 4, 3}}, b, {}, tank);
+        maker.add(BoxShape{{-4, -4, 3}, {4, 4, 3.5}}, c, {}, tank);
+        maker.add(BoxShape{{-4, -4, 3.5}, {4, 4, 4}}, a, {}, tank);
+        maker.add(tank, MaterialId{0});
+        Material matt;
+        matt.diffuse.color = kWhite;
+        maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = kWhite});
+        maker.add(layer(-2, -1), maker.material(matt));
+        look(maker, 0.0, {0, 0, -1}, 0.5);  // from between the floor and the tank
+        Rgb left;
+        for (int i = 0; i < 3; ++i) {
+            left[i] = std::pow(first[i], 1.5) * std::pow(second[i], 2.0) * std::sqrt(third[i]);
+        }
+        expect_near(center(maker.compile()), left, 1e-9);
+    }
+}
+
 TEST(ExactOptics, SettingsOfTheRendererPrevailOverTheScene) {
     ShadingConventions c;
     c.optics = {false, true};

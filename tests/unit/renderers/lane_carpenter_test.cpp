@@ -474,6 +474,37 @@ TEST(LaneCarpenter, ThreadsAndCropsGiveTheSameBits) {
     }
 }
 
+TEST(LaneCarpenter, CropsMayEndBetweenAPatchAndItsControlPoints) {
+    SceneMaker maker;
+    maker.add(Sphere{.center = {-0.875, -0.875, 1}, .radius = 0.625}, {},
+              Affine::rotate({1, 0, 0}, 30 * kPi / 180));
+    const Scene scene = maker.compile();
+    const Camera camera = look_along({0.25, 0.0067, -5.4914}, {-0.247, 0.0063, 5.4624},
+                                     {0.1, 0.2, 1}, 0.567, 48.0 / 36.0);
+    for (const bool all_first : {false, true}) {
+        for (const int samples : {1, 4}) {
+            const RenderJob job{.scene = scene,
+                                .camera = camera,
+                                .samples_per_pixel = samples,
+                                .description = &maker.description()};
+            const LaneCarpenter renderer({.all_first = all_first});
+            Film whole(48, 36, {0, 0, 48, 36});
+            (void)renderer.render(job, whole);
+            for (int begin = 0; begin < 36; begin += 5) {
+                for (int end = begin + 1; end <= 36; ++end) {
+                    Film crop(48, 36, {0, begin, 48, end});
+                    (void)renderer.render(job, crop);
+                    for (int y = begin; y < end; ++y) {
+                        for (int x = 0; x < 48; ++x) {
+                            ASSERT_EQ(whole.at(x, y), crop.at(x, y)) << begin << ' ' << end;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(LaneCarpenter, ClarkGivesTheSamePictureFromMorePatches) {
     SceneMaker maker;
     maker.add(closed_torus());

@@ -5,6 +5,7 @@
 #include "alhazen/primitives/surface.h"
 #include "alhazen/sampling/random.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -145,6 +146,21 @@ TEST(Compile, TruncatedColoursAreThoseOfEightBits) {
     maker.description().conventions.importing.truncate_material_colors = true;
     const Scene scene = maker.compile();
     EXPECT_EQ(scene.materials[0].diffuse.color, (Rgb{30 / 255.0, 1.0, 127 / 255.0}));
+}
+
+TEST(Compile, TruncatedColoursAreNotThoseOfTextures) {
+    SceneMaker maker;
+    const Rgba dim{0.3, 0.3, 0.3, 1};
+    maker.description().textures.push_back({"", SolidTexture{.color = dim, .other = dim}, {}});
+    Material m;
+    m.diffuse.color = {0.12, 1.0, 0.5};
+    m.diffuse.texture = TextureId{0};
+    maker.material(m);
+    maker.add(Sphere{});
+    maker.description().conventions.importing.truncate_material_colors = true;
+    const Scene scene = maker.compile();
+    EXPECT_EQ(color_at(scene.materials[0].diffuse, scene.textures, {}),
+              (Rgb{30 / 255.0 * 0.3, 1.0 * 0.3, 127 / 255.0 * 0.3}));
 }
 
 TEST(Compile, AnUnknownAcceleratorIsAUsageErrorThatListsTheKnownOnes) {

@@ -330,6 +330,26 @@ TEST(Nearest, SweptOutlinesOfStraightLinesAreKnown) {
     EXPECT_NE(nearest_refusal(vase, {}), "");
 }
 
+TEST(Nearest, WhatLoopsShareIsNoSurface) {
+    // The hole's upper side lies on that of the square.
+    const std::vector<Vec2> square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const std::vector<Vec2> notch{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 1}, {-0.5, 1}};
+    const double far = std::hypot(0.5, 0.25);
+    Prism prism;
+    prism.profile = outline({square, notch}, true);
+    EXPECT_NEAR(std::sqrt(nearest_on(prism, {0, 1.25, 0.5}).squared), far, 1e-12);
+    Polygon polygon;
+    for (const auto& loop : {square, notch}) {
+        for (const Vec2& p : loop) polygon.vertices.push_back({p.x, 2.0, p.y});
+    }
+    polygon.loop_ends = {4, 8};
+    EXPECT_NEAR(std::sqrt(nearest_on(polygon, {0, 2, 1.25}).squared), far, 1e-12);
+    Lathe lathe;
+    lathe.profile = outline(
+        {{{0, -1}, {2, -1}, {2, 1}, {0, 1}}, {{0, -1}, {0.5, -1}, {0.5, 1}, {0, 1}}}, false);
+    EXPECT_NEAR(std::sqrt(nearest_on(lathe, {0, 0, 1.25}).squared), far, 1e-12);
+}
+
 TEST(Nearest, NormalsOfLathesLeadOutOfTheMaterial) {
     const std::vector<std::vector<Vec2>> profiles{
         {{1, 0}, {2, 0}, {2, 1}, {1, 1}},                                  // a pipe

@@ -37,7 +37,8 @@ class PolygonTable {
     }
     [[nodiscard]] Polygon& operator[](std::uint32_t slot) { return polygons_[slot]; }
 
-    /// Adds a polygon to the bucket of its first row, or of `row` if it has begun.
+    /// Adds a polygon to the bucket of its first row, or of `row` if it has begun; the later of
+    /// them must be a row of the table.
     void put(std::uint32_t slot, int row) {
         Polygon& polygon = polygons_[slot];
         std::uint32_t& first = buckets_[static_cast<std::size_t>(std::max(row, polygon.first_row))];

@@ -99,7 +99,10 @@ class ScanLines::Impl {
             ScanQuad& quad = quads_[slot];
             const PatchDegrees degrees = patches_.degrees(patch);
             set_quad(view_, grid_, degrees.u, degrees.v, patch, with_chords_, quad);
-            if (quad.end_row <= row || (quad.triangles[0].empty && quad.triangles[1].empty)) {
+            // The rows of a patch are those of its control points: its corners may lie below the
+            // last.
+            if (quad.end_row <= row || quad.first_row >= grid_.rows() ||
+                (quad.triangles[0].empty && quad.triangles[1].empty)) {
                 quads_.give_back(slot);
                 return;
             }

@@ -164,9 +164,9 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
     double met = -min_distance;  // the last crossing that counts
-    bool in_wall = false;        // between the two crossings of a wall
+    bool in_wall = false;        // between the two crossings of a wall, which are one boundary
     for (const Hit& hit : crossings_) {
-        if (hit.t - met < min_distance) continue;
+        if (!in_wall && hit.t - met < min_distance) continue;
         met = hit.t;
         const Surface& surface = crossed(ray, hit, path.time);
         const MaterialSample* material = &material_of(surface);
@@ -224,7 +224,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
-        if (crossing.t - met < min_distance) {
+        if (!in_wall && crossing.t - met < min_distance) {
             // A face that was crossed with the last one is over, however near it is.
             if (!together_.empty()) (void)crossed_already(crossed(ray, crossing, path.time));
             continue;

@@ -5,6 +5,7 @@
 #include "alhazen/math/bernstein_roots.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/swept/lathe_near_level.h"
+#include "alhazen/shapes/swept/profile_outline.h"
 
 namespace alhazen {
 
@@ -179,6 +180,7 @@ bool Lathe::closed() const {
 
 void Lathe::prepare() {
     is_closed = closed();
+    if (is_closed) remove_shared_parts(profile);
     reach = profile.reach();
     const Box3 bounds = box();
     center = {0.0, 0.0, bounds.center().z};

@@ -4,6 +4,7 @@
 
 #include "alhazen/math/bernstein_roots.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/swept/profile_outline.h"
 
 namespace alhazen {
 
@@ -178,6 +179,7 @@ bool side_crossings(const Prism& prism, const Ray& ray, const PrismRay& local, S
 }  // namespace
 
 void Prism::prepare() {
+    remove_shared_parts(profile);
     growth = (top_scale - 1.0) / (h1 - h0);
     reach = profile.reach();
     const Box3 bounds = box();

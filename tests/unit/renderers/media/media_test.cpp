@@ -61,15 +61,18 @@ TEST(Media, EachTintsTheWayThroughIt) {
 TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
     for (const bool wine_first : {false, true}) {
         for (const auto tint : {ShadowTint::PerDistance, ShadowTint::PerCrossing}) {
-            SceneMaker maker;
-            Material white;
-            white.diffuse.color = {1, 1, 1};
-            maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(white));
-            maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
-            maker.description().conventions.shading.shadow_tint = tint;
-            add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
-            expect_near(center(maker.compile()),
-                        tint == ShadowTint::PerDistance ? by_distance() : by_surface(), 1e-9);
+            for (const double least : {0.0, 1e-6, 0.1}) {
+                SceneMaker maker;
+                Material white;
+                white.diffuse.color = {1, 1, 1};
+                maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(white));
+                maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+                maker.description().conventions.shading.shadow_tint = tint;
+                maker.description().conventions.shading.min_distance = least;
+                add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
+                expect_near(center(maker.compile()),
+                            tint == ShadowTint::PerDistance ? by_distance() : by_surface(), 1e-9);
+            }
         }
     }
 }

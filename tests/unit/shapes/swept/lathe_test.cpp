@@ -168,5 +168,72 @@ TEST(Lathe, IsASolidWhereItsLoopsCloseOrEndOnTheAxis) {
     EXPECT_GE(diagnostics.error_count(), 1u);
 }
 
+Lathe of_loops(const std::vector<std::vector<Vec2>>& loops) {
+    Lathe lathe;
+    for (const std::vector<Vec2>& loop : loops) {
+        for (std::size_t i = 0; i + 1 < loop.size(); ++i) {
+            lathe.profile.curves.push_back(line_curve(loop[i], loop[i + 1]));
+        }
+        lathe.profile.loop_ends.push_back(static_cast<std::uint32_t>(lathe.profile.curves.size()));
+    }
+    lathe.prepare();
+    EXPECT_TRUE(lathe.is_closed);
+    return lathe;
+}
+
+/// Rays meet both in the same places; adds their number to `met`.
+void expect_same_crossings(const Lathe& a, const Lathe& b, std::size_t& met) {
+    Random random(67);
+    for (int i = 0; i < 3000; ++i) {
+        const bool lattice = i % 3 == 0;
+        const Vec3 o = lattice ? random.on_lattice(3, 0.25) : random.in_cube(3);
+        const Vec3 d = lattice ? random.lattice_direction() : random.in_cube(1) - 0.4 * o;
+        ShapeHits hits, expected;
+        a.intersect(line(o, d), hits);
+        b.intersect(line(o, d), expected);
+        ASSERT_EQ(hits.size(), expected.size()) << i;
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            ASSERT_NEAR(hits[k].t, expected[k].t, 1e-12) << i;
+            const ShapeSurface at = a.surface(line(o, d), hits[k]);
+            const ShapeSurface there = b.surface(line(o, d), expected[k]);
+            ASSERT_LT(length(at.point - there.point), 1e-12) << i;
+        }
+        met += hits.size();
+    }
+}
+
+TEST(Lathe, WhatTwoLoopsShareIsNoSurface) {
+    // A ring as the difference of two cylinders with common ends; with a common slanted end; as
+    // two loops that share a wall; the same wall three times.
+    const auto ring = of_lines({{0.5, -0.5}, {1.5, -0.5}, {1.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}});
+    const auto cone = of_lines({{0.5, 0.5}, {1.5, 1.5}, {1.5, 2}, {0.5, 2}, {0.5, 0.5}});
+    const std::vector<Vec2> first{{0.5, -0.5}, {1, -0.5}, {1, 0.5}, {0.5, 0.5}, {0.5, -0.5}};
+    const std::vector<Vec2> last{{1.5, -0.5}, {1, -0.5},  {1, 0.25},
+                                 {1, 0.5},    {1.5, 0.5}, {1.5, -0.5}};
+    const std::vector<Vec2> whole{{0, -0.5}, {1.5, -0.5}, {1.5, 0.5}, {0, 0.5}};
+    const std::vector<Vec2> core{{0, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {0, 0.5}};
+    std::size_t met = 0;
+    expect_same_crossings(of_loops({whole, core}), ring, met);
+    expect_same_crossings(of_loops({first, last}), ring, met);
+    expect_same_crossings(of_loops({whole, core, core, core}), ring, met);
+    expect_same_crossings(
+        of_loops({{{0, 0}, {1.5, 1.5}, {1.5, 2}, {0, 2}}, {{0, 2}, {0.5, 2}, {0.5, 0.5}, {0, 0}}}),
+        cone, met);
+    EXPECT_GT(met, 4000u);
+}
+
+TEST(Lathe, LoopsThatCancelOutAreNothing) {
+    const std::vector<Vec2> loop{{0, -0.5}, {1.5, -0.5}, {1.5, 0.5}, {0, 0.5}};
+    const Lathe nothing = of_loops({loop, loop});
+    Random random(68);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 o = random.in_cube(3);
+        ShapeHits hits;
+        nothing.intersect(line(o, random.in_cube(1) - 0.4 * o), hits);
+        ASSERT_TRUE(hits.empty());
+    }
+    EXPECT_GE(nothing.box().hi.x, 1.5);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -201,5 +201,92 @@ TEST(Prism, RefusesWhatDoesNotClose) {
     EXPECT_EQ(diagnostics.error_count(), 4u);
 }
 
+Prism of_loops(const std::vector<std::vector<Vec2>>& loops, double top_scale) {
+    Prism prism{.h0 = -0.5, .h1 = 1, .top_scale = top_scale};
+    for (const std::vector<Vec2>& loop : loops) {
+        std::vector<ProfileCurve> curves;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            curves.push_back(line_curve(loop[i], loop[(i + 1) % loop.size()]));
+        }
+        add_loop(prism.profile, curves);
+    }
+    return prepared(prism);
+}
+
+/// Rays meet both in the same places; adds their number to `met`.
+void expect_same_crossings(const Prism& a, const Prism& b, std::size_t& met) {
+    Random random(57);
+    for (int i = 0; i < 3000; ++i) {
+        const bool lattice = i % 3 == 0;
+        const Vec3 o = lattice ? random.on_lattice(3, 0.25) : random.in_cube(3);
+        const Vec3 d = lattice ? random.lattice_direction() : random.in_cube(1) - 0.4 * o;
+        ShapeHits hits, expected;
+        a.intersect(line(o, d), hits);
+        b.intersect(line(o, d), expected);
+        ASSERT_EQ(hits.size(), expected.size()) << i;
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            ASSERT_NEAR(hits[k].t, expected[k].t, 1e-12) << i;
+        }
+        met += hits.size();
+    }
+}
+
+TEST(Prism, WhatLoopsShareIsNoSide) {
+    const std::vector<Vec2> square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const std::vector<Vec2> notch{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 1}, {-0.5, 1}};
+    const std::vector<Vec2> notched{{-1, -1},    {1, -1},      {1, 1},    {0.5, 1},
+                                    {0.5, -0.5}, {-0.5, -0.5}, {-0.5, 1}, {-1, 1}};
+    const std::vector<Vec2> window{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+    // One loop that goes to the window and comes back the same way.
+    const std::vector<Vec2> keyhole{{-1, -1},     {1, -1},     {1, 1},     {0.5, 0.5}, {-0.5, 0.5},
+                                    {-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {1, 1},     {-1, 1}};
+    const std::vector<Vec2> below{{-1, -1}, {1, -1}, {1, 1}}, above{{1, 1}, {-1, 1}, {-1, -1}};
+    std::size_t met = 0;
+    for (const double top_scale : {1.0, 0.5, 0.0}) {
+        const Prism whole = of_loops({square}, top_scale);
+        expect_same_crossings(of_loops({square, notch}, top_scale), of_loops({notched}, top_scale),
+                              met);
+        expect_same_crossings(of_loops({keyhole}, top_scale), of_loops({square, window}, top_scale),
+                              met);
+        // Of halves, of three of which two cancel out, and beside a part of a diagonal.
+        expect_same_crossings(of_loops({below, above}, top_scale), whole, met);
+        expect_same_crossings(of_loops({notch, square, notch}, top_scale), whole, met);
+        expect_same_crossings(
+            of_loops({below, {{0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}}}, top_scale),
+            of_loops({{{-1, -1}, {1, -1}, {1, 1}, {0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}}},
+                     top_scale),
+            met);
+        EXPECT_EQ(whole.profile.curves.size(), 4u);
+        EXPECT_EQ(of_loops({below, above}, top_scale).profile.curves.size(), 4u);
+    }
+    EXPECT_GT(met, 10000u);
+}
+
+TEST(Prism, CurvesThatLoopsShareInEitherDirectionAreNoSide) {
+    const ProfileCurve wall = cubic_curve({0, -1}, {0.75, -0.5}, {-0.75, 0.5}, {0, 1});
+    const ProfileCurve back = cubic_curve({0, 1}, {-0.75, 0.5}, {0.75, -0.5}, {0, -1});
+    const auto lines = [](const std::vector<Vec2>& points) {
+        std::vector<ProfileCurve> curves;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            curves.push_back(line_curve(points[i], points[i + 1]));
+        }
+        return curves;
+    };
+    const Prism square = of_loops({{{-1, -1}, {0, -1}, {1, -1}, {1, 1}, {0, 1}, {-1, 1}}}, 1);
+    std::size_t met = 0;
+    for (const bool same_way : {false, true}) {
+        Prism prism{.h0 = -0.5, .h1 = 1};
+        std::vector<ProfileCurve> left = lines({{0, 1}, {-1, 1}, {-1, -1}, {0, -1}});
+        std::vector<ProfileCurve> right = same_way ? lines({{0, 1}, {1, 1}, {1, -1}, {0, -1}})
+                                                   : lines({{0, -1}, {1, -1}, {1, 1}, {0, 1}});
+        left.push_back(wall);
+        right.push_back(same_way ? wall : back);
+        add_loop(prism.profile, left);
+        add_loop(prism.profile, right);
+        expect_same_crossings(prepared(prism), square, met);
+    }
+    EXPECT_GT(met, 1000u);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
