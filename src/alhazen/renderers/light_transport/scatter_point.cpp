@@ -135,7 +135,7 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
         const auto index = [&](const std::optional<MaterialId>& id) {
             if (!id) return Spectrum::all(air);
             const Material& m = material(static_cast<std::uint32_t>(*id));
-            return index_of(m, m.index.value, waves);
+            return index_of(m, value_at(m.index, scene.textures, lookup_at(point.surface)), waves);
         };
         return over(index(point.surface.media.before), index(point.surface.media.after));
     }
