@@ -1,5 +1,9 @@
 #include "alhazen/scene_model/validate_solids.h"
 
+#include <algorithm>
+#include <optional>
+
+#include "alhazen/shading/materials/wall_material.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 
 #include <fmt/format.h>
@@ -14,13 +18,17 @@ class SolidValidator {
         : d_(description),
           out_(diagnostics),
           is_operand_(description.objects.size(), false),
-          mesh_state_(description.meshes.size(), MeshState::Unknown) {}
+          mesh_state_(description.meshes.size(), MeshState::Unknown),
+          inward_(description.meshes.size()) {}
 
     void run() {
         mark_operands();
         for (std::size_t i = 0; i < d_.objects.size(); ++i) {
-            if (!is_operand_[i]) continue;
             const ObjectDescription& object = d_.objects[i];
+            if (!is_operand_[i]) {
+                for (const Part& part : object.parts) warn_of_inward(part);
+                continue;
+            }
             if (object.parts.empty() && (object.combine == Combine::Intersection ||
                                          object.combine == Combine::Difference)) {
                 error(object.location,
@@ -115,15 +123,58 @@ class SolidValidator {
         return state == MeshState::Closed;
     }
 
+    /// Outside of solids the winding of a mesh decides on which side its material is.
+    void warn_of_inward(const Part& part) {
+        const auto* of_mesh = std::get_if<MeshIndex>(&part.what);
+        if (of_mesh == nullptr) return;
+        const auto i = static_cast<std::size_t>(*of_mesh);
+        if (i >= d_.meshes.size() || !d_.meshes[i].mesh) return;
+        const std::vector<std::uint32_t>& own = d_.meshes[i].mesh->vertex_materials;
+        const bool is_volume =
+            own.empty()
+                ? bounds_volume(static_cast<std::size_t>(part.material))
+                : std::ranges::any_of(own, [&](std::uint32_t id) { return bounds_volume(id); });
+        if (!is_volume || !faces_inward(i)) return;
+        out_.warning(place(part.location),
+                     fmt::format("{} is closed and faces inward, so its transparent material fills "
+                                 "the outside of it, not the inside; reverse its faces, or put it "
+                                 "into a union",
+                                 in_words(d_.meshes[i])));
+    }
+
+    [[nodiscard]] bool bounds_volume(std::size_t material) const {
+        if (material >= d_.materials.size()) return false;
+        const Material& m = d_.materials[material].material;
+        const bool is_sheet = !m.conductor && !m.dielectric && m.metallic_roughness &&
+                              !(m.metallic_roughness->thickness.value > 0.0);
+        return is_clear(m) && !is_sheet;
+    }
+
+    bool faces_inward(std::size_t mesh) {
+        std::optional<bool>& known = inward_[mesh];
+        if (!known) {
+            const TriangleMesh& m = *d_.meshes[mesh].mesh;
+            Diagnostics ignored;
+            m.validate({}, ignored);
+            // The volume first: edges are sorted, which takes longer.
+            known =
+                ignored.error_count() == 0 && signed_volume(m) < 0.0 && mesh_edges(m).oriented();
+        }
+        return *known;
+    }
+
+    [[nodiscard]] FileLocation place(const FileLocation& where) const {
+        return where.file.empty() ? FileLocation{d_.path.string(), 0, 0} : where;
+    }
     void error(const FileLocation& where, std::string message) {
-        out_.error(where.file.empty() ? FileLocation{d_.path.string(), 0, 0} : where,
-                   std::move(message));
+        out_.error(place(where), std::move(message));
     }
 
     const SceneDescription& d_;
     Diagnostics& out_;
     std::vector<bool> is_operand_;
     std::vector<MeshState> mesh_state_;
+    std::vector<std::optional<bool>> inward_;  ///< [mesh] closed, facing inward
 };
 
 }  // namespace

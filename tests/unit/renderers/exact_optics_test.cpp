@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -205,6 +208,84 @@ TEST(ExactOptics, PhysicalMaterialsReflectByTheSameLaws) {
         maker.add(layer(-1, 0), maker.material(material));
         look(maker, angle);
         expect_near(center(maker.compile()), expected, 1e-12);
+    }
+}
+
+/// Smooth, of index 1.5.
+Material plastic_or_metal(const ScalarInput& metallic) {
+    Material m;
+    m.index.value = 1.5;
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->base_color.color = {0.5, 0.25, 0.125};
+    m.metallic_roughness->metallic = metallic;
+    m.metallic_roughness->roughness.value = 0;
+    return m;
+}
+
+TEST(ExactOptics, ASolidTextureOfMetallicIsThatOfTheirPlace) {
+    const SolidTexture checks{.color = {1, 1, 1}, .other = {0, 0, 0}, .origin = {0, 0, -9.5}};
+    const auto seen = [&](const ScalarInput& metallic, const Vec3& at) {
+        SceneMaker maker = room(true, false, 1);
+        maker.description().textures.push_back({"checks", checks, {}});
+        maker.add(layer(-1, 0), maker.material(plastic_or_metal(metallic)));
+        look(maker, 1.1, at);
+        return center(maker.compile());
+    };
+    for (int i = -3; i < 3; ++i) {
+        const Vec3 at{i + 0.5, 0.5, 0};
+        // The cube around z = 0 is the tenth.
+        const double metallic = (i + 9) % 2 == 0 ? 1.0 : 0.0;
+        expect_near(seen({1, TextureId{0}}, at), seen({metallic, kNoTexture}, at), 1e-12);
+    }
+}
+
+TEST(ExactOptics, ShadowRaysFindASolidTextureOfMetallicAtItsPlace) {
+    // Plastic everywhere but around the origin of the world.
+    const SolidTexture slabs{.kind = SolidTexture::Kind::Stripes,
+                             .color = {1, 1, 1},
+                             .other = {0, 0, 0},
+                             .origin = {0, 0, -1},
+                             .size = 2};
+    const auto seen = [&](const ScalarInput& metallic) {
+        SceneMaker maker = room(true, true, 1);
+        maker.description().picture.background = Rgb{};
+        maker.description().textures.push_back({"slabs", slabs, {}});
+        Material pane = plastic_or_metal(metallic), matt;
+        pane.metallic_roughness->transmission.value = 1;
+        pane.metallic_roughness->thickness.value = 1;
+        matt.diffuse.color = kWhite;
+        maker.add(layer(1.5, 2.5), maker.material(pane));
+        maker.add(layer(-9, -8), maker.material(matt));
+        maker.light(DirectionalLight{.to_light = normalize(Vec3{1, 0, 0.5}), .color = kWhite});
+        look(maker, 0.0, {0, 0, -8}, 1.0);
+        return center(maker.compile());
+    };
+    expect_near(seen({1, TextureId{0}}), seen({0, kNoTexture}), 1e-12);
+}
+
+TEST(ExactOptics, BlendedMaterialsReflectEachByItsOwnLawInAnyOrder) {
+    Material gold;
+    gold.conductor = Conductor{{0.2, 0.4, 1.3}, {3.4, 2.4, 1.8}, ""};
+    const std::array<Material, 3> materials{plastic_or_metal({0, kNoTexture}),
+                                            plastic_or_metal({1, kNoTexture}), gold};
+    const auto seen = [&](std::array<std::uint32_t, 3> kinds, std::array<std::uint32_t, 3> order) {
+        SceneMaker maker = room(true, false, 1);
+        for (const Material& m : materials) maker.material(m);
+        TriangleMesh mesh;
+        // The weights at the origin are 1/2, 1/4 and 1/4.
+        mesh.positions = {{-1, 0, 0}, {1, -2, 0}, {1, 2, 0}};
+        mesh.vertex_materials.assign(kinds.begin(), kinds.end());
+        mesh.triangles = {order};
+        maker.add(maker.mesh(std::move(mesh)), MaterialId{0});
+        look(maker, 1.3);
+        return center(maker.compile());
+    };
+    const std::array<std::uint32_t, 3> turns[] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};
+    std::array<Rgb, 3> alone;
+    for (std::uint32_t k = 0; k < 3; ++k) alone[k] = seen({k, k, k}, turns[0]);
+    for (const auto& kinds : turns) {
+        const Rgb mean = 0.5 * alone[kinds[0]] + 0.25 * alone[kinds[1]] + 0.25 * alone[kinds[2]];
+        for (const auto& order : turns) expect_near(seen(kinds, order), mean, 1e-12);
     }
 }
 

@@ -186,6 +186,31 @@ TEST(Spectral, PicturesDependNeitherOnThreadsNorOnTiles) {
     }
 }
 
+TEST(Spectral, ATextureOfTheIndexIsItsNumberInASolidOfTwoMedia) {
+    const auto seen = [](const ScalarInput& index) {
+        SceneMaker maker = floor_from_above(1, {0.8, 0.5, 0.2});
+        maker.description().picture.background = Rgb{2, 2, 2};
+        maker.description().textures.push_back(
+            {"half", SolidTexture{.color = {0.5, 0.5, 0.5}, .other = {0.5, 0.5, 0.5}}, {}});
+        const ObjectIndex lens = maker.object("lens");
+        maker.description().objects.back().combine = Combine::Union;
+        Material crown, flint;
+        crown.transmissive.color = {0.9, 0.9, 0.9};
+        crown.index = index;
+        flint = glass_named("SF11");
+        maker.add(ball({-0.2, 0, 0.5}, 0.4), maker.material(crown), {}, lens);
+        maker.add(ball({0.2, 0, 0.5}, 0.4), maker.material(flint), {}, lens);
+        maker.add(lens);
+        return picture_of(maker.compile(), "path_tracing --spectral", 16, 4);
+    };
+    const Film number = seen({1.5, kNoTexture}), texture = seen({3.0, TextureId{0}});
+    for (int i = 0; i < 16 * 16; ++i) {
+        // The mean of a texture over a footprint is rounded.
+        const Rgb off = number.at(i % 16, i / 16) - texture.at(i % 16, i / 16);
+        EXPECT_LT(std::max({std::abs(off.r), std::abs(off.g), std::abs(off.b)}), 1e-9) << i;
+    }
+}
+
 TEST(Spectral, ABlackBodyHasItsOwnColourThroughAFilter) {
     // Behind a filter the spectrum differs from its colour: both are seen through the same glass.
     SceneMaker maker;

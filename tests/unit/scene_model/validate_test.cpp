@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "alhazen/scene_model/scene_description.h"
 #include "support/scene_maker.h"
@@ -150,6 +151,42 @@ TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
     texture.uv_transform.uu = kNan;
     maker.description().textures.push_back({"t", texture, {}});
     EXPECT_EQ(errors_in(maker.description()), 2u);
+}
+
+TEST(Validate, AClosedMeshOfGlassThatFacesInwardIsAWarningOutsideOfSolids) {
+    const auto warnings = [](TriangleMesh mesh, const Material& material,
+                             Combine combine = Combine::Group) {
+        SceneMaker maker;
+        maker.material(material);
+        maker.add(maker.mesh(std::move(mesh)));
+        maker.description().objects[0].combine = combine;
+        Diagnostics diagnostics;
+        validate(maker.description(), diagnostics);
+        EXPECT_EQ(diagnostics.error_count(), 0u);
+        return diagnostics.all().size();
+    };
+    const TriangleMesh outward = testing::tetrahedron();
+    TriangleMesh inward = outward;
+    for (auto& triangle : inward.triangles) std::swap(triangle[0], triangle[1]);
+    TriangleMesh open = inward, crooked = inward;
+    open.triangles.pop_back();
+    std::swap(crooked.triangles[0][0], crooked.triangles[0][1]);
+
+    Material glass, coefficients, sheet;
+    glass.dielectric.emplace();
+    coefficients.transmissive.color = {0.5, 0.5, 0.5};
+    sheet.metallic_roughness.emplace().transmission.value = 1;
+    Material body = sheet;
+    body.metallic_roughness->thickness.value = 1;
+    for (const Material& m : {glass, coefficients, body}) {
+        EXPECT_EQ(warnings(inward, m), 1u);
+        EXPECT_EQ(warnings(outward, m), 0u);
+        EXPECT_EQ(warnings(open, m), 0u);
+        EXPECT_EQ(warnings(crooked, m), 0u);
+        EXPECT_EQ(warnings(inward, m, Combine::Union), 0u);
+    }
+    EXPECT_EQ(warnings(inward, sheet), 0u);
+    EXPECT_EQ(warnings(inward, {}), 0u);
 }
 
 TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {

@@ -197,6 +197,25 @@ TEST(MetallicRoughness, AVolumeStaysOneWhereTheTextureOfItsThicknessIsBlack) {
     EXPECT_FALSE(evaluate(with(p), std::span(&black, 1), SurfaceLookup{}).thin);
 }
 
+TEST(MetallicRoughness, ATextureOfTheIndexIsItsNumber) {
+    const Texture half = one_texel({0.5f, 0.5f, 0.5f});
+    MetallicRoughness clear = parameters(0, 0.1);
+    clear.transmission.value = clear.thickness.value = 1;
+    Material body, gold;
+    body.dielectric.emplace();
+    gold.conductor = Conductor{{0.2, 0.4, 1.3}, {3.4, 2.4, 1.8}, ""};
+    for (Material m : {with(parameters(0.25, 0.1)), with(clear), body, gold}) {
+        m.index = {1.5, kNoTexture};
+        const MaterialSample number = sample_of(m);
+        m.index = {3.0, TextureId{0}};
+        const MaterialSample texture = evaluate(m, std::span(&half, 1), SurfaceLookup{});
+        EXPECT_EQ(texture.index, 1.5);
+        EXPECT_EQ(texture.reflective, number.reflective);
+        EXPECT_EQ(texture.specular, number.specular);
+        EXPECT_EQ(texture.thin, number.thin);
+    }
+}
+
 TEST(MetallicRoughness, TheSecondSetAndTheTransformOfCoordinatesAreUsed) {
     Image image(2, 1, 1);
     image.samples = {0.25f, 0.75f};

@@ -139,7 +139,10 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
         from = point_.surface.point;
     }
     nothing_ = piece.seen.facet == kNoFacet;
-    if (nothing_) return;
+    if (nothing_) {
+        way_.share = way_.share * transmittance_to_infinity(way_.absorption);
+        return;
+    }
     const Ray ray = space_ray(tree_.beams[piece.beam].back, eye);
     const double distance = meet(piece.seen.facet, ray, from, way_);
     attenuate(distance, way_);

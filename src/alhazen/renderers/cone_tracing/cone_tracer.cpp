@@ -75,6 +75,7 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
     }
     if (watcher_ != nullptr) watcher_->begin_cone(whole, cone, path, depth);
     Rgb sum = left * scene_.background;
+    if (!path.absorption.is_black()) sum = sum * transmittance_to_infinity(path.absorption);
     counters_[path.start.kind].hit += !pieces.empty();
     const SeenPiece* largest = nullptr;
     for (const SeenPiece& s : pieces) {

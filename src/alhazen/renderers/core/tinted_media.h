@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "alhazen/imaging/image/rgb.h"
@@ -20,6 +21,10 @@ namespace alhazen {
 [[nodiscard]] inline Rgb transmittance(const Rgb& absorption, double distance) {
     const auto of = [&](double a) { return a > 0.0 ? std::exp(-a * distance) : 1.0; };
     return {of(absorption.r), of(absorption.g), of(absorption.b)};
+}
+
+[[nodiscard]] inline Rgb transmittance_to_infinity(const Rgb& absorption) {
+    return transmittance(absorption, std::numeric_limits<double>::infinity());
 }
 
 [[nodiscard]] inline Rgb power(const Rgb& base, double exponent) {

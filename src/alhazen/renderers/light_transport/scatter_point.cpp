@@ -155,7 +155,7 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
             if (!id && around == nullptr) return Spectrum::all(air);
             if (!id) return index_of(material(around->material), around->index, waves);
             const Material& m = material(static_cast<std::uint32_t>(*id));
-            return index_of(m, m.index.value, waves);
+            return index_of(m, value_at(m.index, scene.textures, lookup_at(point.surface)), waves);
         };
         return over(index(stated.before), index(stated.after));
     }

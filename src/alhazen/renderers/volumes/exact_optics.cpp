@@ -1,6 +1,7 @@
 #include "alhazen/renderers/volumes/exact_optics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -27,15 +28,21 @@ bool bounds_a_volume(const MaterialSample& m) {
     return !m.transmissive.is_black() && !m.thin && m.index > 0.0;
 }
 
-const Material& first_material(const Scene& scene, const Surface& surface) {
-    return scene.material_of(surface);
+/// Inputs of the materials of a surface that a ray of unit `direction` meets, where its cone is
+/// `width` wide.
+SurfaceLookup lookup_at(const Scene& scene, const Surface& surface, const Vec3& direction,
+                        double width) {
+    SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color, {}};
+    if (scene.has_mipmaps && width > 0.0) {
+        lookup.footprint = footprint_at(surface, direction, width);
+    }
+    if (scene.has_solid_textures) lookup.aperture = aperture_at(surface, direction, width);
+    return lookup;
 }
 
 /// Share of the dielectric in the reflection of a physical material.
-double dielectric_share(const Scene& scene, const Surface& surface) {
-    const Material& material = first_material(scene, surface);
+double dielectric_share(const Scene& scene, const Material& material, const SurfaceLookup& lookup) {
     if (!material.metallic_roughness) return material.conductor ? 0.0 : 1.0;
-    const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color, {}};
     const double metallic = value_at(material.metallic_roughness->metallic, scene.textures, lookup);
     return 1.0 - std::clamp(metallic, 0.0, 1.0);
 }
@@ -86,7 +93,8 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
                     media_[sides.behind].absorption, sides.behind};
     point.behind.joined = sides.joined;
     if (met.physical) {
-        turn(point.surface, cosine, sides.here, sides.beyond, point.own_material());
+        turn(point.surface, lookup_at(scene_, point.surface, -point.view, arrival.width), cosine,
+             sides.here, sides.beyond, point.own_material());
     } else if (optics_.fresnel && !met.transmissive.is_black()) {
         const double reflected = dielectric_reflectance(cosine, point.behind.eta);
         MaterialSample& own = point.own_material();
@@ -152,11 +160,13 @@ ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialS
     if (optics_.fresnel) {
         const double thin = std::min(sides.here, sides.beyond);
         const double dense = std::max(sides.here, sides.beyond);
-        MaterialSample turned = material;
-        turned.transmissive = {1, 1, 1};
         if (material.physical) {
-            turn(surface, std::abs(cosine), thin, dense, turned);
-            through = through * turned.transmissive;
+            const bool blended = surface.material_count > 1;
+            MaterialSample turned = material;
+            if (!blended) turned.transmissive = {1, 1, 1};
+            turn(surface, lookup_at(scene_, surface, direction, 0.0), std::abs(cosine), thin, dense,
+                 turned);
+            through = (blended ? sides.before : through) * turned.transmissive;
         } else {
             through = (1.0 - dielectric_reflectance(std::abs(cosine), thin / dense)) * through;
         }
@@ -311,16 +321,51 @@ Rgb ExactOptics::tint_of(const MaterialSample& sample) const {
     return {1, 1, 1};
 }
 
-void ExactOptics::turn(const Surface& surface, double cosine, double here, double beyond,
-                       MaterialSample& sample) const {
-    const Material& material = first_material(scene_, surface);
+void ExactOptics::turn(const Surface& surface, const SurfaceLookup& lookup, double cosine,
+                       double here, double beyond, MaterialSample& sample) const {
+    if (surface.material_count == 1) {
+        return turn(scene_.material_of(surface), lookup, cosine, here, beyond, sample);
+    }
+    if (!optics_.fresnel) {
+        // As without these optics, blended terms are turned.
+        double dielectric = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Material& material = scene_.material_of(surface, i);
+            dielectric = std::max(dielectric, dielectric_share(scene_, material, lookup));
+        }
+        return turn(dielectric, cosine, here, beyond, sample);
+    }
+    // Behind an opaque surface is the index of the material itself; volumes have one index.
+    const bool is_opaque = !surface.media.known && !bounds_a_volume(sample);
+    std::array<MaterialSample, 3> each;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+        const Material& material = scene_.material_of(surface, i);
+        each[i] = evaluate(material, scene_.textures, lookup);
+        const double behind = is_opaque ? each[i].index : beyond;
+        const bool has_both = here > 0.0 && behind > 0.0;
+        turn(material, lookup, cosine, has_both ? here : 1.0, has_both ? behind : 1.0, each[i]);
+    }
+    const auto& w = surface.weights;
+    const MaterialSample sum = weighted_sum(w[0], each[0], w[1], each[1], w[2], each[2]);
+    sample.diffuse = sum.diffuse;
+    sample.specular = sum.specular;
+    sample.reflective = sum.reflective;
+    sample.transmissive = sum.transmissive;
+}
+
+void ExactOptics::turn(const Material& material, const SurfaceLookup& lookup, double cosine,
+                       double here, double beyond, MaterialSample& sample) const {
     if (optics_.fresnel && material.conductor) {
         return turn_conductor(*material.conductor, cosine, here, sample);
     }
+    turn(dielectric_share(scene_, material, lookup), cosine, here, beyond, sample);
+}
+
+void ExactOptics::turn(double dielectric, double cosine, double here, double beyond,
+                       MaterialSample& sample) const {
     // The material's reflectance is that against index 1.
     const double thin = std::min(here, beyond), dense = std::max(here, beyond);
     const bool as_evaluated = thin == 1.0 && (dense == 1.0 || dense == sample.index);
-    const double dielectric = dielectric_share(scene_, surface);
     turn_to_view_between(sample, cosine, here / beyond, !as_evaluated && dielectric > 0.0,
                          optics_.fresnel ? dielectric : 0.0);
 }

@@ -108,7 +108,13 @@ class ExactOptics final : public SurfaceOptics {
         return !physical && !tints_events_ && !optics_.beer && !scene_.is_closed(part);
     }
     [[nodiscard]] Rgb tint_of(const MaterialSample& sample) const;
-    void turn(const Surface& surface, double cosine, double here, double beyond,
+    /// Turns a physical sample to a ray; with `fresnel` each of blended materials by itself.
+    void turn(const Surface& surface, const SurfaceLookup& lookup, double cosine, double here,
+              double beyond, MaterialSample& sample) const;
+    void turn(const Material& material, const SurfaceLookup& lookup, double cosine, double here,
+              double beyond, MaterialSample& sample) const;
+    /// `dielectric`: its share of the reflection.
+    void turn(double dielectric, double cosine, double here, double beyond,
               MaterialSample& sample) const;
 
     const Scene& scene_;

@@ -198,15 +198,17 @@ class RecursiveEstimator {
         const bool keeps = first && depth == 0 && !eye_hits_.empty();
         const auto tell = [&](std::size_t k, const ShadingPoint* point, double t) {
             const std::uint32_t i = front.active[k];
-            if (point == nullptr) {
-                if constexpr (TreeWatcher<Randomness>) random_.miss(i, front.left[i], depth);
-                part.radiance[i] += first ? unhindered_ : front.left[i] * scene_.background;
-                return;
-            }
             Rgb& left = front.left[i];
             Path& path = part.paths[i];
+            const bool absorbs = !path.absorption.is_black();
+            if (point == nullptr) {
+                if (absorbs) left = left * transmittance_to_infinity(path.absorption);
+                if constexpr (TreeWatcher<Randomness>) random_.miss(i, left, depth);
+                part.radiance[i] += first && !absorbs ? unhindered_ : left * scene_.background;
+                return;
+            }
             counters_[path.kind].hit += first;
-            if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
+            if (absorbs) left = left * transmittance(path.absorption, t);
             bool begun = false;
             for (; point != nullptr; point = visible_.next_here(path)) {
                 const double coverage = point->material->coverage;

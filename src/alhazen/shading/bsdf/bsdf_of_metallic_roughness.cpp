@@ -121,7 +121,7 @@ class LayerMaker {
         const double strength = scalar(p_.specular);
         const Rgb tint = not_negative_color(p_.specular_color);
         // KHR_materials_ior: index 0 stands for infinity: all light is reflected.
-        const double index = m_.index.value;
+        const double index = value_at(m_.index, textures_, lookup_);
         const bool reflects_all = index == 0.0;
         const double at_normal = reflects_all ? 1.0 : normal_reflectance_of(index);
         const Rgb f0 = strength * clipped(at_normal * tint);

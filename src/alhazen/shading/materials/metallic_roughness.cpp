@@ -108,7 +108,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
         s.occlusion = clamped(1.0 + p.occlusion.value * (texel - 1.0));
     }
     s.physical = true;
-    s.index = material.index.value;
+    s.index = value_at(material.index, textures, lookup);
     s.emission = color(material.emission);
 
     const Rgb dielectric =

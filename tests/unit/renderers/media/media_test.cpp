@@ -1,5 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 #include "unit/renderers/one_pixel.h"
@@ -72,6 +82,97 @@ TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
                 add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
                 expect_near(center(maker.compile()),
                             tint == ShadowTint::PerDistance ? by_distance() : by_surface(), 1e-9);
+            }
+        }
+    }
+}
+
+/// Clear, with a channel that passes all light.
+Material absorber() {
+    Material m;
+    m.dielectric = Dielectric{{0.5, 0.2, 0.0}};
+    m.index.value = 1.0;
+    return m;
+}
+/// What is left of white light behind this way through the absorber.
+Rgb left_after(double way) {
+    return {std::exp(-0.5 * way), std::exp(-0.2 * way), 1.0};
+}
+
+TriangleMesh block(double bottom, double top, bool inward) {
+    TriangleMesh mesh;
+    for (int k = 0; k < 8; ++k) {
+        mesh.positions.push_back({k & 1 ? 3.0 : -3.0, k & 2 ? 3.0 : -3.0, k & 4 ? top : bottom});
+    }
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    for (auto& triangle : mesh.triangles) {
+        if (inward) std::swap(triangle[1], triangle[2]);
+    }
+    return mesh;
+}
+
+/// Renderers, of which the last have no solids, the very last no half-spaces either.
+const std::vector<std::string> kAll{"whitted",       "whitted:fresnel=on,beer=on",
+                                    "distributed",   "path_tracing",
+                                    "bidirectional", "cone_tracing",
+                                    "beam_tracing"};
+
+/// Expects a colour in the middle of the pictures of the first `count` renderers.
+void expect_seen(SceneMaker& maker, const Rgb& expected, const std::string& what,
+                 std::size_t count) {
+    maker.description().cameras[0].camera =
+        look_along({0.1, 0.2, 9}, {0, 0, -1}, {0, 1, 0}, 1e-4, 1.0);
+    maker.description().conventions.shading.max_depth = 8;
+    for (std::size_t k = 0; k < count; ++k) {
+        SCOPED_TRACE(kAll[k] + ", " + what);
+        const std::unique_ptr<Renderer> renderer = make_renderer(kAll[k]);
+        Scene scene = maker.compile();
+        renderer->adjust(scene.conventions.shading);
+        const SamplingPlan plan;
+        Film film(1, 1, {0, 0, 1, 1});
+        const RenderJob job{.scene = scene,
+                            .camera = scene.cameras[0].camera,
+                            .samples_per_pixel = kAll[k] == "beam_tracing" ? 1 : 4,
+                            .description = &maker.description(),
+                            .sampling = &plan};
+        ASSERT_TRUE(renderer->render(job, film).complete());
+        expect_near(film.at(0, 0), expected, 1e-6);
+    }
+}
+
+TEST(Media, LightFromInfinityDoesNotCrossWhatAbsorbs) {
+    SceneMaker maker;
+    maker.description().picture.background = Rgb{1, 1, 1};
+    maker.add(HalfSpace{{0, 0, 0}, {0, 0, 1}}, maker.material(absorber()));
+    expect_seen(maker, {0, 0, 1}, "half-space", kAll.size() - 1);
+}
+
+TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
+    for (const bool lamp : {false, true}) {
+        for (const bool inward : {false, true}) {
+            for (const bool solid : {false, true}) {
+                SceneMaker maker;
+                const MaterialId glass = maker.material(absorber());
+                const MeshIndex mesh = maker.mesh(block(0, 1, inward));
+                if (solid) {
+                    const ObjectIndex body = maker.object("body");
+                    maker.description().objects.back().combine = Combine::Union;
+                    maker.add(mesh, glass, {}, body);
+                    maker.add(body);
+                } else {
+                    maker.add(mesh, glass);
+                }
+                // Two below the mesh.
+                const MaterialId light = maker.material(testing::glowing({1, 1, 1}));
+                if (lamp) maker.add(Rectangle{{-9, -9, -2}, {18, 0, 0}, {0, 18, 0}}, light);
+                if (!lamp) maker.description().picture.background = Rgb{1, 1, 1};
+                const bool outside = inward && !solid;
+                const Rgb beyond = lamp ? left_after(2) : Rgb{0, 0, 1};
+                expect_seen(maker, outside ? beyond : left_after(1),
+                            std::string(lamp ? "lamp" : "sky") + (inward ? " inward" : "") +
+                                (solid ? " solid" : ""),
+                            kAll.size() - (solid ? 2 : 0));
             }
         }
     }

@@ -102,6 +102,29 @@ TEST(BsdfOf, AnIndexOfZeroReflectsAll) {
     }
 }
 
+TEST(BsdfOf, ATextureOfTheIndexIsItsNumber) {
+    const std::vector<Texture> half{
+        SolidTexture{.color = {0.5, 0.5, 0.5}, .other = {0.5, 0.5, 0.5}}};
+    Material dielectric, coefficients, plastic = glass(1, 0);
+    dielectric.dielectric.emplace();
+    coefficients.transmissive.color = {1, 1, 1};
+    plastic.metallic_roughness->transmission.value = 0;
+    for (Material m : {glass(1, 0), glass(1, 1), plastic, dielectric, coefficients}) {
+        m.index = {1.5, kNoTexture};
+        const Bsdf number = of(m);
+        m.index = {3.0, TextureId{0}};
+        const Bsdf texture = bsdf_of(m, half, {}, {});
+        for (const double choice : {0.01, 0.5, 0.99}) {
+            const auto a = number.sample(view_at(0.6), choice, {0.3, 0.7}, Transport::Radiance);
+            const auto b = texture.sample(view_at(0.6), choice, {0.3, 0.7}, Transport::Radiance);
+            ASSERT_TRUE(a && b);
+            EXPECT_EQ(a->direction, b->direction);
+            EXPECT_EQ(a->weight, b->weight);
+            EXPECT_EQ(a->density, b->density);
+        }
+    }
+}
+
 TEST(BsdfOf, SpecularTintsAndWeakensTheFace) {
     Material m = glass(1.5, 0);
     m.metallic_roughness->transmission.value = 0;
