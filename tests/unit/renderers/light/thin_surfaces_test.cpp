@@ -1,4 +1,4 @@
-// Single-sided meshes.
+// Single-sided meshes, and thin sheets that light passes straight.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,10 @@ namespace {
 using testing::ball;
 using testing::floor_from_above;
 using testing::fog;
+using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
+using testing::rectangle;
 using testing::SceneMaker;
 using testing::shining;
 
@@ -74,6 +76,84 @@ TEST(SingleSidedMeshes, ShowTheEyeWhatIsBeforeTheirBack) {
             EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, samples)).g, bare, 0.05 * bare)
                 << renderer << (with_fog ? " with fog" : "");
         }
+    }
+}
+
+/// A sheet that passes this share of light, straight; the rest is a matt reflection.
+Material sheet(double share, const Rgb& radiance = {}) {
+    Material m = shining(radiance);
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->metallic.value = 0;
+    m.metallic_roughness->roughness.value = 0;
+    m.metallic_roughness->specular.value = 0;
+    m.metallic_roughness->transmission.value = share;
+    return m;
+}
+
+Rectangle wide(double z) {
+    return rectangle({-9, -9, z}, {18, 0, 0}, {0, 18, 0});
+}
+
+/// A lamp over a floor between two walls, with sheets across the middle of the walls.
+Scene below_sheets(int count, double share) {
+    SceneMaker maker = floor_from_above(1.2, {0.5, 0.5, 0.5});
+    const MaterialId white = maker.material(matt({0.9, 0.9, 0.9}));
+    maker.add(rectangle({-0.7, -1, 0}, {0, 2, 0}, {0, 0, 1}), white);
+    maker.add(rectangle({0.7, -1, 0}, {0, 2, 0}, {0, 0, 1}), white);
+    Material lamp = shining({1, 1, 1});
+    lamp.double_sided = false;
+    maker.add(rectangle({-0.6, -1, 1.5}, {0, 2, 0}, {1.2, 0, 0}), maker.material(lamp));
+    for (int i = 0; i < count; ++i) maker.add(wide(0.6 + 0.1 * i), maker.material(sheet(share)));
+    return maker.compile();
+}
+
+TEST(ThinSheets, PassedStraightTakeNoDepth) {
+    for (const char* depth : {"1", "2"}) {
+        const auto with_depth = [&](const char* name) {
+            return std::string(name) + "depth=" + depth;
+        };
+        const double bare =
+            mean_of(picture_of(below_sheets(0, 1), with_depth("path_tracing:"), 8, 512)).g;
+        ASSERT_GT(bare, 0.05);
+        for (const char* name :
+             {"path_tracing:", "light_tracing:", "bidirectional:", "vcm:photons=500,pilot=off,",
+              "sppm:photons=1000,", "photon_mapping:photons=20000,"}) {
+            const std::string renderer = with_depth(name);
+            const auto seen = [&](int count, double share) {
+                const Scene scene = below_sheets(count, share);
+                return mean_of(picture_of(scene, renderer, 8, samples_of(renderer, 128))).g;
+            };
+            EXPECT_NEAR(seen(3, 1.0), bare, 0.04 * bare) << renderer;
+            // Whether a sheet is passed is left to chance.
+            EXPECT_NEAR(seen(1, 0.5), 0.5 * bare, 0.04 * 0.5 * bare) << renderer;
+        }
+    }
+}
+
+TEST(ThinSheets, AtTheLargestDepthLightIsSeenThroughThem) {
+    Material mirror;
+    mirror.reflective.color = {0.5, 0.5, 0.5};
+    for (const std::string renderer :
+         {"path_tracing:depth=1", "bidirectional:depth=1", "vcm:photons=100,pilot=off,depth=1",
+          "sppm:photons=100,depth=1", "photon_mapping:photons=100,depth=1"}) {
+        SceneMaker maker = testing::looking_down();
+        maker.add(wide(0.0), maker.material(mirror));
+        maker.add(wide(6.0), maker.material(sheet(1)));
+        maker.add(wide(7.0), maker.material(shining({2, 2, 2})));
+        EXPECT_NEAR(mean_of(picture_of(maker.compile(), renderer, 2, 16)).g, 1.0, 1e-6) << renderer;
+    }
+}
+
+TEST(ThinSheets, LightsAreSeenThroughSheetsThatShine) {
+    for (const std::string renderer :
+         {"path_tracing", "light_tracing", "bidirectional", "vcm:photons=100,pilot=off",
+          "sppm:photons=100", "photon_mapping:photons=100"}) {
+        SceneMaker maker = testing::looking_down();
+        maker.add(wide(0.0), maker.material(shining({1, 1, 1})));
+        maker.add(wide(1.0), maker.material(sheet(1)));
+        maker.add(wide(2.0), maker.material(sheet(1, {0.3, 0.3, 0.3})));
+        EXPECT_NEAR(mean_of(picture_of(maker.compile(), renderer, 4, 1024)).g, 1.3, 0.03)
+            << renderer;
     }
 }
 
