@@ -214,10 +214,10 @@ class ViewServer(ServerTest):
                     self.assertEqual(status, 200, body)
                     own = rendered(ALHAZEN, scene, "--spp", "4", "--renderer", renderer, "--camera", str(camera))
                     self.assertTrue(png_pixels(body) == own, (text[:200], renderer))
-                # A view elsewhere keeps the lens, and no motion.
+                # A view elsewhere keeps the lens, and no motion; an added headlight goes with it.
                 moved = {**wish, "renderer": "distributed", "camera": {**wish["camera"], "eye": [6, 1, 0.25]}}
                 still = {**moved, "camera": {**moved["camera"], "of": 7}}
-                self.assertEqual(server.ask("/frame", moved)[2] == server.ask("/frame", still)[2], "point_light" in text)
+                self.assertTrue(server.ask("/frame", moved)[2] == server.ask("/frame", still)[2], text[:200])
             finally:
                 server.close()
 

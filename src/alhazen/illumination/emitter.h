@@ -60,7 +60,7 @@ struct alignas(64) Emitter {
     EmitterForm form = EmitterForm::Triangle;
     bool two_sided = false;
     bool right_angled = false;  ///< Rectangle: its edges are perpendicular
-    /// Sphere: no ray meets it, so that light of its inner side passes through the rest of it.
+    /// Sphere: no connection meets it, so that light of its inner side passes the rest of it.
     bool unseen = false;
     double area = 0;  ///< of one side; of curved forms by numerical integration
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the

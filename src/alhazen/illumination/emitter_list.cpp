@@ -35,7 +35,7 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
     if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
     has_unsampled_ |= emitters_.capacity() >= kMostEmitters;
-    expand(*scene.aggregate, {});
+    expand(*scene.aggregate, {}, kAllRays);
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         if (!make_ready(emitters_[i])) {
             // A polygon whose corners are off its plane shines, and is met by chance.
@@ -123,7 +123,8 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     return tables_.emplace(&aggregate, std::move(result)).first->second;
 }
 
-void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_table) {
+void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_table,
+                         RayMask seen_by) {
     const PrimitiveTable& table = aggregate.primitives();
     const Table& counted = tables_.at(&aggregate);
     for (std::size_t k = 0; k < counted.primitives.size(); ++k) {
@@ -136,9 +137,10 @@ void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_ta
         if (emitters_.size() >= kMostEmitters) return;
         if (table.kind(id) == kInstanceKind) {
             const Instance& instance = table.instances[table.index(id)];
-            expand(*instance.aggregate, world_from_table * instance.placement.outer_from_inner);
+            expand(*instance.aggregate, world_from_table * instance.placement.outer_from_inner,
+                   seen_by & table.visible_to(id));
         } else {
-            expand_primitive(table, id, world_from_table);
+            expand_primitive(table, id, world_from_table, seen_by & table.visible_to(id));
         }
     }
 }
@@ -147,12 +149,13 @@ void EmitterList::join_half(const PrimitiveTable& table, PrimitiveId first, Prim
     Emitter& e = emitters_.back();
     const Emitter half = std::exchange(e, *rectangle_of_halves(table, first, second));
     e.two_sided = half.two_sided;
+    e.unseen = half.unseen;
     e.radiance = half.radiance;
     e.illuminant = half.illuminant;
 }
 
 void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
-                                   const Affine& world_from_table) {
+                                   const Affine& world_from_table, RayMask seen_by) {
     const std::size_t first = emitters_.size();
     append_emitters_of_shape(table, id, world_from_table, emitters_);
     MaterialId material{};
@@ -172,6 +175,7 @@ void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
     varying_.resize(emitters_.size(), of_vertices || varies(m));
     for (std::size_t i = first; i < emitters_.size(); ++i) {
         emitters_[i].two_sided = m.double_sided;
+        emitters_[i].unseen = (seen_by & kConnectingRays) == 0;
         emitters_[i].radiance = m.emission.color;
         emitters_[i].illuminant = m.illuminant;
     }

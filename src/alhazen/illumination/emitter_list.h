@@ -65,9 +65,10 @@ class EmitterList {
     };
 
     const Table& count(const Aggregate& aggregate);
-    void expand(const Aggregate& aggregate, const Affine& world_from_table);
+    /// Appends the emitters of an aggregate. `seen_by`: the rays that see what holds it.
+    void expand(const Aggregate& aggregate, const Affine& world_from_table, RayMask seen_by);
     void expand_primitive(const PrimitiveTable& table, PrimitiveId id,
-                          const Affine& world_from_table);
+                          const Affine& world_from_table, RayMask seen_by);
     /// Replaces the last emitter, the first half of a rectangle, by the whole rectangle.
     void join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second);
     [[nodiscard]] bool emits(const Material& material) const;

@@ -75,16 +75,28 @@ double append_parts(const Affine& world, std::span<const Vec3> corners, EmitterP
     return own_sum;
 }
 
+/// Largest distance of a polygon's corners from its plane, relative to the root of its area, that
+/// is rounding: of floats as far from the origin as a thousand times the size.
+constexpr double kMostOffPlane = 1e-4;
+
+/// The corners of a polygon in its plane, so that rays do not meet it in front of a sampled point.
+std::vector<Vec3> corners_in_plane(const Polygon& p, double area) {
+    std::vector<Vec3> corners = p.vertices;
+    if (p.off_plane <= 1e-9 * std::sqrt(area)) return corners;
+    for (Vec3& corner : corners) corner -= dot(p.normal, corner - p.point) * p.normal;
+    return corners;
+}
+
 /// The parts of a polygon with holes or that crosses itself, by the odd-even rule; none if corners
 /// are off its plane.
-EmitterParts repaired_parts(const Affine& world, const Polygon& p) {
+EmitterParts repaired_parts(const Affine& world, const Polygon& p, std::span<const Vec3> corners) {
     EmitterParts parts;
     const RepairedPolygon repaired =
-        repaired_polygon(p.vertices, p.loop_ends, {p.normal, dot(p.normal, p.point)});
+        repaired_polygon(corners, p.loop_ends, {p.normal, dot(p.normal, p.point)});
     double own_sum = 0.0;
     for (const std::vector<Vec3>& part : repaired.parts)
         own_sum += append_parts(world, part, parts);
-    if (p.off_plane <= 1e-9 * std::sqrt(own_sum)) return parts;
+    if (p.off_plane <= kMostOffPlane * std::sqrt(own_sum)) return parts;
     return {};
 }
 
@@ -92,14 +104,15 @@ EmitterParts repaired_parts(const Affine& world, const Polygon& p) {
 Emitter polygon(const Affine& world, const Polygon& p) {
     std::vector<std::uint32_t> loop(p.vertices.size());
     for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
-    EmitterParts parts;
-    const double own_sum = append_parts(world, p.vertices, parts);
     const double true_area = 0.5 * length(newell_normal(p.vertices, loop));
+    const std::vector<Vec3> corners = corners_in_plane(p, true_area);
+    EmitterParts parts;
+    const double own_sum = append_parts(world, corners, parts);
     const Vec3 y = cross(p.normal, p.u_axis);
     Emitter e = flat(EmitterForm::Polygon, world, p.point, p.u_axis, y);
     const bool simple = p.loop_ends.size() <= 1 && own_sum <= true_area * (1.0 + 1e-9) &&
-                        p.off_plane <= 1e-9 * std::sqrt(true_area);
-    if (!simple) parts = repaired_parts(world, p);
+                        p.off_plane <= kMostOffPlane * std::sqrt(true_area);
+    if (!simple) parts = repaired_parts(world, p, corners);
     e.parts = std::make_shared<const EmitterParts>(std::move(parts));
     return e;
 }

@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "alhazen/illumination/emitter.h"
+#include "alhazen/illumination/illumination.h"
+#include "support/light_checks.h"
 #include "support/random.h"
+#include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -68,6 +73,45 @@ TEST(FlatEmitters, LightWhatLiesJustBesideTheirPlane) {
             if (1e-11 * scale < 1e-6 * length(own.x_axis)) {
                 ASSERT_NEAR(1.0 / s.density, 6.283, 0.01) << "case " << i;
             }
+        }
+    }
+}
+
+TEST(FlatEmitters, PolygonsWithCornersRoundedToFloatsAreDrawn) {
+    for (const double away : {0.0, 1.0, 300.0}) {
+        for (const bool has_hole : {false, true}) {
+            // A plane in general position.
+            const auto place = [&](double x, double y) {
+                return Vec3{x + 0.03 * y, y - 0.1 * x, 3 + 0.31 * x - 0.17 * y};
+            };
+            Polygon lamp;
+            for (const Vec2& at :
+                 {Vec2{-1, -1}, Vec2{-1.2, 0.7}, Vec2{0.1, 1.3}, Vec2{1, 0.9}, Vec2{0.8, -1.1}}) {
+                lamp.vertices.push_back(place(at.x, at.y));
+            }
+            lamp.loop_ends = {5};
+            if (has_hole) {
+                for (const Vec2& at : {Vec2{0, 0}, Vec2{0.5, 0.2}, Vec2{0.3, 0.6}}) {
+                    lamp.vertices.push_back(place(at.x, at.y));
+                }
+                lamp.loop_ends.push_back(8);
+            }
+            const Vec3 shift{away, 0.7 * away, 0.4 * away};
+            for (Vec3& v : lamp.vertices) {
+                v += shift;
+                for (int k = 0; k < 3; ++k) v[k] = static_cast<float>(v[k]);
+            }
+            SceneMaker maker;
+            Material surface;
+            surface.emission.color = {2, 3, 4};
+            maker.add(lamp, maker.material(surface));
+            const Scene scene = maker.compile();
+            const Illumination lights(scene);
+            const LitPoint at{Vec3{0.1, 0.2, 0} + shift, {0, 0, 1}, false};
+            EXPECT_FALSE(lights.has_unsampled_emitters()) << away << has_hole;
+            EXPECT_GT(mean_irradiance(scene, lights, at, 1000).a, 0.0) << away << has_hole;
+            expect_equal_densities(scene, lights, at, 1e-5);
+            EXPECT_LT(std::abs(irradiance_z(scene, lights, at, 20000, 7)), 4.5);
         }
     }
 }

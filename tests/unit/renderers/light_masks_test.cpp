@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "support/light_pictures.h"
@@ -118,6 +119,39 @@ TEST(LightMasks, AWallWithoutShadowIsLitByLightPaths) {
     maker.light(PointLight{.position = {0, -1, 2}, .color = {9, 9, 9}, .attenuation = {0, 0, 1}});
     const Scene scene = maker.compile();
     expect_same_light(scene, "wall", {"path_tracing", "light_tracing", "bidirectional"}, 64, kMost);
+}
+
+// Connections pass the near side of a sphere that casts no shadow: its inner side shines out of it.
+TEST(LightMasks, ASphereOfLightWithoutShadowShowsBothOfItsSides) {
+    // The mean over a square of side 2 below the centre is the square's solid angle, over its area.
+    const double once = 8 * 0.25 * std::asin(0.2);
+    for (const bool two_sided : {true, false}) {
+        for (const bool instanced : {false, true}) {
+            SceneMaker maker = floor_from_above(2);
+            Material surface = shining({8, 4, 2});
+            surface.double_sided = two_sided;
+            const MaterialId material = maker.material(surface);
+            if (instanced) {
+                const ObjectIndex lamp = maker.object("lamp");
+                maker.add(ball({0, 0, 0}, 0.25), material, {}, lamp);
+                maker.add(lamp, {}, Affine::translate({0, 0, 2}) * Affine::scale({2, 2, 2}));
+            } else {
+                maker.add(ball({0, 0, 2}, 0.5), material);
+            }
+            show_last_to(maker, kNoShadow);
+            const Scene scene = maker.compile("wide_bvh");
+            const double light = two_sided ? 2 * once : once;
+            for (const std::string renderer :
+                 {"path_tracing", "path_tracing --spectral", "bidirectional", "light_tracing",
+                  "vcm:photons=2000,pilot=off", "sppm:photons=2000",
+                  "photon_mapping:photons=2000"}) {
+                const int samples = renderer == "light_tracing" ? 1024 : 64;
+                EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, samples)).r, light, 0.04 * light)
+                    << renderer << (two_sided ? ", two-sided" : "")
+                    << (instanced ? ", instanced" : "");
+            }
+        }
+    }
 }
 
 TEST(LightMasks, TheSurfaceOfALightDoesNotOccludeAmbientLight) {

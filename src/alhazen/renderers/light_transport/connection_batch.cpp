@@ -111,8 +111,14 @@ Spectrum ConnectionBatch::passing(const Ray& ray, float time, RayKind kind,
 
 bool ConnectionBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
     crossings_.clear();
+    if (has_single_sided_ && kind == RayKind::Eye) {
+        // `shadowed` asks on which side a ray leaves a single-sided surface, towards the light;
+        // this ray begins at the eye, and sees the side on which it arrives.
+        scene_.aggregate->all_hits(ray, crossings_, query(time, kind));
+        return true;
+    }
     if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return false;
-    if (has_single_sided_ && kind != RayKind::Eye) {
+    if (has_single_sided_) {
         // The backs of single-sided surfaces are missing in `crossings_`.
         if (crossings_.empty()) return false;
         crossings_.clear();

@@ -179,16 +179,23 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
         v.throughput = front.throughput;
     }
     v.hero_only = front.waves.hero_only();
-    if (point_.material->unlit || (ends.last && !v.scatter.is_null_boundary())) return Step::Ends;
+    if (point_.material->unlit) return Step::Ends;
+    const double straight = v.scatter.straight_probability();
+    if (ends.last && !v.scatter.is_null_boundary() && !(straight > 0.0)) return Step::Ends;
     const Vec2 u = draws.random.draw(draws.id, pair);
     const Vec2 choices = draws.random.draw(draws.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
     // A thin sheet that is passed straight, by chance, is no vertex.
-    const double straight = v.scatter.straight_probability();
     if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
         v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
     }
-    if (!drawn || drawn->weight.is_black()) return Step::Ends;
+    if (straight == 1.0 && !v.emission.is_black()) {
+        // Half of the paths end at a sheet that shines, or none would show its light.
+        v.throughput = 2.0 * v.throughput;
+        if (choices.y < 0.5) return Step::Ends;
+        front.throughput = 2.0 * front.throughput;
+    }
+    if (!drawn || drawn->weight.is_black() || (ends.last && !drawn->straight)) return Step::Ends;
     front.throughput = front.throughput * drawn->weight;
     if (drawn->dispersed) front.waves.keep_hero(front.throughput);
     if (!from_eye) {

@@ -182,14 +182,16 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
                       Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
-    // A null boundary is passed without a scattering.
-    if (point.material->unlit || (deepest && !media_.have_null_boundaries())) {
+    // Clear thin sheets and null boundaries are passed without a scattering.
+    const bool is_sheet = point.material->thin && !point.material->transmissive.is_black();
+    if (point.material->unlit || (deepest && !is_sheet && !media_.have_null_boundaries())) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
     Vertex& vertex = vertices_[waiting_];
     vertex.scatter.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-    if (deepest && !vertex.scatter.is_null_boundary()) {
+    if (deepest && !vertex.scatter.is_null_boundary() &&
+        !(vertex.scatter.straight_probability() > 0.0)) {
         record_step(path, PathStep::Deepest);
         return;
     }
@@ -204,7 +206,7 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
 void PathTracer::scatter_all() {
     const std::span<const Vertex> vertices = std::span(vertices_).first(waiting_);
     for (const Vertex& vertex : vertices) {
-        if (!vertex.scatter.has_density()) continue;
+        if (!is_lit(vertex)) continue;
         const EyePath& path = *vertex.path;
         const Vec2 place = random_.draw(path.sample, path.drawn, PathRandomness::kLight);
         const double choice = choices(path, chooses_light_).y;
@@ -215,7 +217,7 @@ void PathTracer::scatter_all() {
     draw_directions(vertices);
     for (std::size_t i = 0, lit = 0; i < vertices.size(); ++i) {
         const Vertex& vertex = vertices[i];
-        if (vertex.scatter.has_density()) {
+        if (is_lit(vertex)) {
             Spectrum& sum = light_[vertex.path->sample];
             add_direct_light(vertex, draws_[lit++], sum);
             if (chains_) add_chains(vertex, sum);
@@ -316,6 +318,10 @@ void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& d
     EyePath& path = *vertex.path;
     const ScatterPoint& scatter = vertex.scatter;
     if (!drawn || drawn->weight.is_black()) return;
+    if (!drawn->straight && path.scatterings >= settings_.depth) {
+        record_step(path, PathStep::Deepest);
+        return;
+    }
     path.throughput = path.throughput * drawn->weight;
     if (drawn->dispersed) keep_hero(path);
     if (layers_ != nullptr && path.scatterings == 0 && !drawn->straight) {

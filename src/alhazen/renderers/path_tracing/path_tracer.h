@@ -106,6 +106,10 @@ class PathTracer {
     void leave_lane(std::size_t lane);
     /// Adds direct light at the waiting vertices and scatters their paths.
     void scatter_all();
+    /// True if lights are sampled for the vertex; at the largest depth it is only passed straight.
+    [[nodiscard]] bool is_lit(const Vertex& vertex) const {
+        return vertex.scatter.has_density() && vertex.path->scatterings < settings_.depth;
+    }
     /// The last vertex of the record (RenderJob::path); null for paths that are not recorded.
     [[nodiscard]] RecordedVertex* recorded(const EyePath& path) {
         return path.sample == recorded_ ? &job_.path->vertices.back() : nullptr;

@@ -105,11 +105,12 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
     along_ = *at.path.waves;
     path.waves = &along_;
     Spectrum sum;
-    for (int surface = 0; surface < settings_.depth; ++surface) {
-        const std::uint64_t first = 3 * static_cast<std::uint64_t>(surface);
+    std::uint64_t event = 0;  // also counts surfaces that are passed straight
+    for (int surface = 0; surface < settings_.depth; ++surface, ++event) {
+        const std::uint64_t first = 3 * event;
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) return sum;
-        if (surface == 0) distance = path.travelled;
+        if (event == 0) distance = path.travelled;
         if (meets == PathMeets::Volume) {
             const VolumePoint& place = next_.volume();
             Spectrum light = volume_light(place, at.waves, along_.hero_only());
@@ -133,6 +134,10 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
         const auto drawn = met_.sample(
             numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, Transport::Radiance);
         if (!drawn || !drawn->singular || drawn->weight.is_black()) return sum;
+        if (drawn->straight) {
+            if (path.met > kMaxPassedSurfaces) return sum;
+            --surface;
+        }
         NextSurface::go_on(path, point.surface, met_, *drawn);
         if (drawn->dispersed) along_.keep_hero(path.throughput);
     }

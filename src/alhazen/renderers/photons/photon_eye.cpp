@@ -112,12 +112,16 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         const ShadingPoint& point = next_.point();
         sum += emitted(at);
         const bool deepest = at.last.scatterings >= settings_.depth;
-        if (point.material->unlit || (deepest && !next_.media().have_null_boundaries())) return;
+        if (point.material->unlit) return;
+        const bool is_sheet = point.material->thin && !point.material->transmissive.is_black();
+        if (deepest && !is_sheet && !next_.media().have_null_boundaries()) return;
         scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others());
-        if (deepest && !scatter_.is_null_boundary()) return;
+        if (deepest && !scatter_.is_null_boundary() && !(scatter_.straight_probability() > 0.0)) {
+            return;
+        }
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         const int here = event;
-        if (scatter_.has_density()) {
+        if (scatter_.has_density() && !deepest) {
             ++event;
             add_direct_light(id, here, at, waves, direct);
             const double times = at.straight ? photon_lookups(id) : 1.0;
@@ -137,7 +141,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         const auto drawn = scatter_.sample(random_.draw(id, here, PathRandomness::kChoices).x,
                                            random_.draw(id, here, PathRandomness::kDirection),
                                            Transport::Radiance);
-        if (!drawn || drawn->weight.is_black()) return;
+        if (!drawn || drawn->weight.is_black() || (deepest && !drawn->straight)) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
         // Mirrors and total reflection use no random numbers.
         const bool chosen = !(drawn->singular && is_certain(drawn->density));

@@ -123,8 +123,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
-    for (int surface = 0; surface < shot_.depth; ++surface) {
-        const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
+    std::uint64_t event = 0;  // also counts thin sheets that are passed straight
+    for (int surface = 0; surface < shot_.depth; ++surface, ++event) {
+        const std::uint64_t first = kAtEach * event;
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) return true;
         const bool by_density = scattered || first_segment != FirstSegment::Hit;
@@ -151,6 +152,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             NextSurface::go_on(path, point.surface, scatter_,
                                *scatter_.sample(0.0, {}, Transport::Importance));
             --surface;
+            --event;
             continue;
         }
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
@@ -164,6 +166,10 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         if (!drawn || drawn->weight.is_black()) return true;
         const bool by_singular = scattered || first_segment != FirstSegment::Connected;
         if (path.passed && (drawn->straight || drawn->singular)) return true;
+        if (drawn->straight) {
+            if (path.met > kMaxPassedSurfaces) return true;
+            --surface;
+        }
         if (!drawn->straight && !(drawn->singular ? by_singular : by_density)) return true;
         const RayKind kind_of_next = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
         if (!drawn->straight && (seen_by & mask_of(kind_of_next)) == 0) return true;
