@@ -141,6 +141,62 @@ TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
     }
 }
 
+/// Two solids of several media, one before the other: touching, where only one of the two faces is
+/// met, or overlapping, where the medium is that of the solid entered last.
+TEST(LightVolumes, ASolidOfSeveralMediaIsLeftWhereAnotherBegins) {
+    const double dense = 1, thin = 0.1;
+    for (const double overlap : {0.0, 0.3}) {
+        for (const bool dense_first : {false, true}) {
+            if (overlap == 0.0 && dense_first) continue;
+            SceneMaker maker = wall_of_light();
+            const auto add = [&](double lo, double hi, double absorption) {
+                const ObjectIndex solid = maker.object("solid");
+                maker.description().objects.back().combine = Combine::Union;
+                for (const double x : {-4.0, 0.03}) {
+                    const double end = x < 0.0 ? 0.03 : 4.0;
+                    maker.add(BoxShape{{x, -4, lo}, {end, 4, hi}},
+                              maker.material(glass({absorption, absorption, absorption}, 1.0)), {},
+                              solid);
+                }
+                maker.add(solid);
+            };
+            if (dense_first) add(0, 1, dense);
+            add(-1, overlap, thin);
+            if (!dense_first) add(0, 1, dense);
+            const Scene scene = maker.compile();
+            const double expected = std::exp(-dense * (1 - overlap) - thin * (1 + overlap));
+            for (const char* renderer :
+                 {"path_tracing", "bidirectional", "sppm:photons=10,radius=0.1"}) {
+                EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 4)).g, expected, 1e-9)
+                    << renderer << " " << overlap << dense_first;
+            }
+        }
+    }
+}
+
+/// A ball that eye rays see, behind a sheet and a block that are passed straight.
+TEST(LightVolumes, WhatAnEyeRayPassesStraightLeavesItAnEyeRay) {
+    Material sheet = testing::smooth_glass(1.0);
+    sheet.metallic_roughness->thickness.value = 0;
+    sheet.metallic_roughness->specular.value = 0;
+    for (const bool of_sheet : {true, false}) {
+        SceneMaker maker = wall_of_light();
+        maker.add(ball({0, 0, 0}, 0.5), maker.material(shining({3, 3, 3})));
+        maker.description().objects[0].parts.back().visible_to = mask_of(RayKind::Eye);
+        if (of_sheet) {
+            maker.add(rectangle({-4, -4, 2}, {8, 0, 0}, {0, 8, 0}), maker.material(sheet));
+        } else {
+            maker.add(BoxShape{{-4, -4, 2}, {4, 4, 3}}, maker.material(glass({}, 1.0)));
+        }
+        const Scene scene = maker.compile();
+        for (const char* renderer : {"path_tracing", "bidirectional", "photon_mapping:photons=10",
+                                     "sppm:photons=10,radius=0.1"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 4)).g, 3.0, 1e-9)
+                << renderer << of_sheet;
+        }
+    }
+}
+
 TEST(LightVolumes, ALampInGlassShinesThroughIt) {
     // A small light in the middle of a ball: its rays meet the glass at normal incidence.
     const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;

@@ -137,7 +137,6 @@ class MediaFinder::Crossings {
     ShadingPoint first_, other_;
     OtherFaces here_;
     std::vector<HitParts> parts_;  ///< [face of here_]
-    MediumStack outside_;          ///< of the last solid of several media
 };
 
 bool MediaFinder::Crossings::add(const Hit& hit, ShadingPoint& at) {
@@ -183,15 +182,18 @@ void MediaFinder::Crossings::cross_all_here() {
 
 void MediaFinder::Crossings::cross_stated(const ShadingPoint& at, bool endless) {
     const SurfaceMedia& media = at.surface.media;
-    if (!media.before) outside_ = found_.all;
-    found_.all = outside_;
-    if (endless) found_.endless = {};
-    if (!media.after) return;
-    const MaterialSample after = medium_at(scene_, at.surface, *media.after);
-    const Medium inside{part_number({at.surface.part, at.surface.instance}), after.index,
-                        after.absorption, static_cast<std::uint32_t>(*media.after), true};
-    found_.all.enter(inside);
-    if (endless) found_.endless.enter(inside);
+    std::uint32_t before = 0;
+    Medium after;
+    if (media.before) before = static_cast<std::uint32_t>(*media.before);
+    if (media.after) {
+        const MaterialSample sample = medium_at(scene_, at.surface, *media.after);
+        after = {part_number({at.surface.part, at.surface.instance}), sample.index,
+                 sample.absorption, static_cast<std::uint32_t>(*media.after), true};
+    }
+    for (MediumStack* const found : {&found_.all, &found_.endless}) {
+        if (found == &found_.endless && !endless) continue;
+        found->cross_stated(media.before ? &before : nullptr, media.after ? &after : nullptr);
+    }
 }
 
 MediaFinder::Found MediaFinder::along(const Vec3& direction, const Vec3& point, const Vec3* side,

@@ -202,8 +202,10 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
         front.throughput = v.scatter.importance_correction(drawn->direction) * front.throughput;
     }
     if (drawn->transmitted) v.scatter.cross(front.media);
-    kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
     front.ray.direction = drawn->direction;
+    // What an eye ray passes straight leaves it an eye ray.
+    if (drawn->straight && from_eye) return Step::Straight;
+    kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
     if (drawn->straight) return Step::Straight;
     if (!continues(drawn->singular) || (v.seen_by & mask_of(kind_)) == 0) return Step::Ends;
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;

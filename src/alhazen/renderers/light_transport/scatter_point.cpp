@@ -29,6 +29,10 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
 }
 
+std::uint32_t number_of(MaterialId id) {
+    return static_cast<std::uint32_t>(id);
+}
+
 /// True if boundaries between volumes of the same index are passed straight at the surface: in
 /// scenes with scattering volumes, or if its materials may have the index of the air.
 bool may_be_null(const Scene& scene, const Surface& surface) {
@@ -97,7 +101,8 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     if (others != nullptr) others_ = *others;
     media_known_ = point.behind.known;
     if (media_known_) {
-        before_inside_ = surface.media.before.has_value();
+        before_.reset();
+        if (const auto& before = surface.media.before) before_ = number_of(*before);
         behind_inside_ = point.behind.inside;
         inside_.stated = true;
         inside_.absorption = point.behind.absorption;
@@ -148,7 +153,7 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     if (media_known_) {
         const SurfaceMedia& stated = point.surface.media;
         const Medium* const around = stated.before && stated.after ? nullptr
-                                     : stated.before               ? media.without_stated()
+                                     : before_                     ? media.without_stated(*before_)
                                                                    : media.here();
         if (!waves.is_spectral() && around == nullptr) return Spectrum::all(point.behind.eta);
         const auto index = [&](const std::optional<MaterialId>& id) {
@@ -422,8 +427,7 @@ double ScatterPoint::importance_correction(const Vec3& direction) const {
 void ScatterPoint::cross(MediumStack& media) const {
     if (thin_) return;
     if (media_known_) {
-        if (before_inside_) media.leave_stated();
-        if (behind_inside_) media.enter(inside_);
+        media.cross_stated(before_ ? &*before_ : nullptr, behind_inside_ ? &inside_ : nullptr);
     } else {
         // Volumes are left before others are entered: new ones are innermost.
         if (!entering_) media.leave(inside_);

@@ -13,6 +13,7 @@
 /// sheets are.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "alhazen/renderers/core/local_shading.h"
@@ -173,8 +174,8 @@ class ScatterPoint {
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool null_ = false;
-    bool media_known_ = false;  ///< the media are stated by a solid
-    bool before_inside_ = false;
+    bool media_known_ = false;             ///< the media are stated by a solid
+    std::optional<std::uint32_t> before_;  ///< the material of the one that is left, if so
     bool behind_inside_ = false;
 };
 

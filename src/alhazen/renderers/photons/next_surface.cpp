@@ -131,9 +131,9 @@ void NextSurface::go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoin
                         const Scattered& drawn) {
     path.throughput = path.throughput * drawn.weight;
     if (drawn.transmitted) scatter.cross(path.media);
-    path.kind = drawn.transmitted ? RayKind::Refraction : RayKind::Reflection;
     path.ray = leaving_ray(at, drawn.direction);
     if (drawn.straight) return;
+    path.kind = drawn.transmitted ? RayKind::Refraction : RayKind::Reflection;
     path.as_connection = false;
     path.travelled = 0.0;
 }

@@ -3,9 +3,9 @@
 ///
 /// Conventions: a volume is identified by the part that bounds it, so that overlapping volumes may
 /// be left in any order. Leaving a part that was not entered leaves the innermost volume of its
-/// material: a boundary may consist of several parts. A solid of several media, which states those
-/// on both sides of its surfaces, has one place in the stack. Beyond kMost volumes around a point,
-/// the outermost are dropped.
+/// material: a boundary may consist of several parts. A solid of several media states those on both
+/// sides of its surfaces; who leaves it leaves the stated media around it, too: another such solid
+/// that touches it ended there. Beyond kMost volumes around a point, the outermost are dropped.
 
 #include <cstdint>
 
@@ -53,11 +53,11 @@ class MediumStack {
     [[nodiscard]] const Medium* within(const Medium& volume) const {
         return place_of(volume) + 1 < media_.size() ? here() : nullptr;
     }
-    /// The innermost volume outside of the solid of several media that is left; null: none.
-    [[nodiscard]] const Medium* without_stated() const {
-        const std::size_t left = place_of_stated();
+    /// The innermost volume after the stated medium of the material is left; null: none.
+    [[nodiscard]] const Medium* without_stated(std::uint32_t material) const {
+        const std::size_t left = place_of_stated(material);
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (i != left) return &media_[i].value;
+            if (i > left || !media_[i].value.stated) return &media_[i].value;
         }
         return nullptr;
     }
@@ -80,17 +80,30 @@ class MediumStack {
         if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
     }
 
-    /// Leaves the innermost medium of a solid of several media; nothing if there is none.
-    void leave_stated() {
-        if (const std::size_t i = place_of_stated(); i < media_.size()) remove(i);
+    /// Crosses a surface of a solid of several media: out of that of material `before` if not null,
+    /// into `after` if not null.
+    void cross_stated(const std::uint32_t* before, const Medium* after) {
+        if (before != nullptr) {
+            const std::size_t left = place_of_stated(*before);
+            if (left < media_.size()) {
+                remove(left);
+                for (std::size_t i = after != nullptr ? 0 : left; i-- > 0;) {
+                    if (media_[i].value.stated) remove(i);
+                }
+            }
+        }
+        if (after != nullptr) enter(*after);
     }
 
   private:
-    [[nodiscard]] std::size_t place_of_stated() const {
+    [[nodiscard]] std::size_t place_of_stated(std::uint32_t material) const {
+        std::size_t any = media_.size();
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (media_[i].value.stated) return i;
+            if (!media_[i].value.stated) continue;
+            if (media_[i].value.material == material) return i;
+            if (any == media_.size()) any = i;
         }
-        return media_.size();
+        return any;
     }
     [[nodiscard]] std::size_t place_of(const Medium& volume) const {
         for (std::size_t i = media_.size(); i-- > 0;) {

@@ -21,7 +21,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/node_stack-inl.h"

@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"

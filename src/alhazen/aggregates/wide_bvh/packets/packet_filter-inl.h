@@ -27,7 +27,6 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
