@@ -5,10 +5,12 @@
 #include "alhazen/math/quadratic.h"
 #include "alhazen/shapes/quadrics/cone.h"
 #include "support/random.h"
+#include "support/same_crossings.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_same_crossings;
 using testing::line;
 using testing::Random;
 
@@ -179,27 +181,6 @@ Lathe of_loops(const std::vector<std::vector<Vec2>>& loops) {
     lathe.prepare();
     EXPECT_TRUE(lathe.is_closed);
     return lathe;
-}
-
-/// Rays meet both in the same places; adds their number to `met`.
-void expect_same_crossings(const Lathe& a, const Lathe& b, std::size_t& met) {
-    Random random(67);
-    for (int i = 0; i < 3000; ++i) {
-        const bool lattice = i % 3 == 0;
-        const Vec3 o = lattice ? random.on_lattice(3, 0.25) : random.in_cube(3);
-        const Vec3 d = lattice ? random.lattice_direction() : random.in_cube(1) - 0.4 * o;
-        ShapeHits hits, expected;
-        a.intersect(line(o, d), hits);
-        b.intersect(line(o, d), expected);
-        ASSERT_EQ(hits.size(), expected.size()) << i;
-        for (std::size_t k = 0; k < hits.size(); ++k) {
-            ASSERT_NEAR(hits[k].t, expected[k].t, 1e-12) << i;
-            const ShapeSurface at = a.surface(line(o, d), hits[k]);
-            const ShapeSurface there = b.surface(line(o, d), expected[k]);
-            ASSERT_LT(length(at.point - there.point), 1e-12) << i;
-        }
-        met += hits.size();
-    }
 }
 
 TEST(Lathe, WhatTwoLoopsShareIsNoSurface) {

@@ -5,10 +5,12 @@
 #include "alhazen/shapes/polygons/box_shape.h"
 #include "alhazen/shapes/polygons/polyhedron.h"
 #include "support/random.h"
+#include "support/same_crossings.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_same_crossings;
 using testing::line;
 using testing::Random;
 
@@ -211,24 +213,6 @@ Prism of_loops(const std::vector<std::vector<Vec2>>& loops, double top_scale) {
         add_loop(prism.profile, curves);
     }
     return prepared(prism);
-}
-
-/// Rays meet both in the same places; adds their number to `met`.
-void expect_same_crossings(const Prism& a, const Prism& b, std::size_t& met) {
-    Random random(57);
-    for (int i = 0; i < 3000; ++i) {
-        const bool lattice = i % 3 == 0;
-        const Vec3 o = lattice ? random.on_lattice(3, 0.25) : random.in_cube(3);
-        const Vec3 d = lattice ? random.lattice_direction() : random.in_cube(1) - 0.4 * o;
-        ShapeHits hits, expected;
-        a.intersect(line(o, d), hits);
-        b.intersect(line(o, d), expected);
-        ASSERT_EQ(hits.size(), expected.size()) << i;
-        for (std::size_t k = 0; k < hits.size(); ++k) {
-            ASSERT_NEAR(hits[k].t, expected[k].t, 1e-12) << i;
-        }
-        met += hits.size();
-    }
 }
 
 TEST(Prism, WhatLoopsShareIsNoSide) {
