@@ -204,8 +204,9 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     if (drawn->transmitted) v.scatter.cross(front.media);
     front.ray.direction = drawn->direction;
     // What an eye ray passes straight leaves it an eye ray.
-    if (drawn->straight && from_eye) return Step::Straight;
-    kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
+    if (!(drawn->straight && from_eye)) {
+        kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
+    }
     if (drawn->straight) return Step::Straight;
     if (!continues(drawn->singular) || (v.seen_by & mask_of(kind_)) == 0) return Step::Ends;
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;

@@ -47,6 +47,11 @@ class ScatteringMedia {
     [[nodiscard]] bool has_open_boundaries() const { return open_; }
     /// True if some boundary of a volume may be passed straight (ScatterPoint::is_null_boundary).
     [[nodiscard]] bool have_null_boundaries() const { return any() || straight_; }
+    /// False if a surface of the material is certain not to be passed straight: it is neither a
+    /// clear thin sheet nor a null boundary.
+    [[nodiscard]] bool may_be_passed_straight(const MaterialSample& m) const {
+        return have_null_boundaries() || (m.thin && !m.transmissive.is_black());
+    }
     /// True if a straight ray may pass through more than one volume.
     [[nodiscard]] bool are_followed() const { return any() || open_ || straight_; }
     /// The scattering of a medium; null: none.

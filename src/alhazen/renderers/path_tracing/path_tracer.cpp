@@ -182,9 +182,7 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
                       Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
-    // Clear thin sheets and null boundaries are passed without a scattering.
-    const bool is_sheet = point.material->thin && !point.material->transmissive.is_black();
-    if (point.material->unlit || (deepest && !is_sheet && !media_.have_null_boundaries())) {
+    if (point.material->unlit || (deepest && !media_.may_be_passed_straight(*point.material))) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }

@@ -113,8 +113,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         sum += emitted(at);
         const bool deepest = at.last.scatterings >= settings_.depth;
         if (point.material->unlit) return;
-        const bool is_sheet = point.material->thin && !point.material->transmissive.is_black();
-        if (deepest && !is_sheet && !next_.media().have_null_boundaries()) return;
+        if (deepest && !next_.media().may_be_passed_straight(*point.material)) return;
         scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others());
         if (deepest && !scatter_.is_null_boundary() && !(scatter_.straight_probability() > 0.0)) {
             return;
