@@ -110,15 +110,18 @@ class LaneShapes {
     HWY_NOINLINE void visit_by_rays(const Block& block, std::uint32_t met, const float* entry,
                                     std::uint32_t& lanes, Stats stats) {
         std::uint32_t seen = 0;
+        alignas(64) PacketRow begin[Derived::kOrdered ? kBlockWidth : 1];
         for (; met != 0; met &= met - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-            if (block.ids[lane].used() && scene_.sees(block.ids[lane].id())) seen |= 1u << lane;
+            if (!block.ids[lane].used() || !scene_.sees(block.ids[lane].id())) continue;
+            seen |= 1u << lane;
+            // Of rays that miss the shape.
+            if constexpr (Derived::kOrdered) store_lanes(PacketFloats(0.0f), begin[lane]);
         }
         FilteredShapes filtered[kPacketLanes];
         std::uint32_t passed[kPacketLanes];
         filter_by_rays(block, lanes, filtered, passed);
         std::uint32_t rays_at[kBlockWidth] = {}, any = 0;  // [shape] the rays that may hit it
-        alignas(64) PacketRow begin[Derived::kOrdered ? kBlockWidth : 1];
         for (std::uint32_t rays = lanes; rays != 0; rays &= rays - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rays));
             const FilteredShapes& found = filtered[i];
