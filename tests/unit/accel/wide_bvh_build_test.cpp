@@ -13,11 +13,9 @@
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/accel/wide_bvh/build/collapse.h"
 #include "alhazen/accel/wide_bvh/build/curve_builder.h"
-#include "alhazen/accel/wide_bvh/build/morton_order.h"
 #include "alhazen/accel/wide_bvh/build/reinsertion.h"
 #include "alhazen/accel/wide_bvh/build/sah_cost.h"
 #include "alhazen/accel/wide_bvh/build/spatial_split.h"
-#include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/simd/targets.h"
 
@@ -465,151 +463,6 @@ TEST(WideBvhBuild, NodesThatAreNotInUseAreFew) {
     const BinaryBvh binary = build_binary(references, kKinds);
     // Leaves have up to four.
     EXPECT_LT(binary.index_count, references.size());
-}
-
-/// The place of a point on the curve in a box, found by halving the longest side of its cell.
-std::uint32_t place_on_curve(Float4 point, const Box4& box) {
-    float side[3];
-    int halvings[3]{};
-    std::vector<int> axes;
-    for (int k = 0; k < 3; ++k) side[k] = box.hi[k] - box.lo[k];
-    while (axes.size() < 32) {
-        int longest = -1;
-        for (int k = 0; k < 3; ++k) {
-            if (halvings[k] == 11 || side[k] <= 0) continue;
-            if (longest < 0 || side[k] > side[longest]) longest = k;
-        }
-        if (longest < 0) break;
-        side[longest] /= 2;
-        ++halvings[longest];
-        axes.push_back(longest);
-    }
-    std::uint32_t cell[3];
-    for (int k = 0; k < 3; ++k) {
-        const float cells = std::ldexp(1.0f, halvings[k]);
-        const float place =
-            halvings[k] == 0 ? 0 : (point[k] - box.lo[k]) * (cells / (box.hi[k] - box.lo[k]));
-        cell[k] = static_cast<std::uint32_t>(std::min(place, cells - 1));
-    }
-    std::uint32_t code = 0;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        const std::uint32_t bit = cell[axes[i]] >> --halvings[axes[i]] & 1;
-        code |= bit << (31 - i);
-    }
-    return code;
-}
-
-TEST(MortonOrder, DividesCrowdedCellsAnewAndKeepsTheOrderOfEqualPlaces) {
-    std::mt19937_64 random(6);
-    std::vector<Float4> points;
-    // Most lie in a corner so small that it is one cell, in a flat box.
-    for (std::size_t i = 0; i < 150000; ++i) {
-        const float scale = i % 10 == 0 ? 1.0f : 0x1p-14f;
-        const auto coordinate = [&] { return scale * static_cast<float>(random() % 64) / 64.0f; };
-        const float x = coordinate(), y = coordinate();
-        points.push_back(Float4{x, y, 0.125f * coordinate(), 0});
-    }
-    HugeRoom room(CurveOrder::room_bytes(points.size()));
-    const auto make = [&](std::size_t begin, std::size_t end, Float4* to) {
-        std::copy(points.data() + begin, points.data() + end, to);
-    };
-    const CurveOrder order({points.size(), make}, room);
-    Box4 all;
-    for (const Float4& p : points) all.include_point(p);
-    std::vector<bool> seen(points.size());
-    std::size_t inner = 0, same = 0;
-    for (std::size_t begin = 0; begin < points.size();) {
-        const auto cell_of = [&](std::size_t i) { return order.place(i) >> 32; };
-        std::size_t end = begin;
-        Box4 box;
-        for (; end < points.size() && cell_of(end) == cell_of(begin); ++end) {
-            box.include_point(points[order.index(end)]);
-        }
-        for (std::size_t i = begin; i < end; ++i) {
-            const Float4 point = points[order.index(i)];
-            ASSERT_FALSE(seen[order.index(i)]);
-            seen[order.index(i)] = true;
-            ASSERT_EQ(cell_of(i), place_on_curve(point, all));
-            const bool crowded = end - begin > kCurveLeafSize;
-            ASSERT_EQ(static_cast<std::uint32_t>(order.place(i)),
-                      crowded ? place_on_curve(point, box) : 0);
-            if (i == 0) continue;
-            ASSERT_LE(order.place(i - 1), order.place(i));
-            inner += cell_of(i - 1) == cell_of(i) && order.place(i - 1) < order.place(i);
-            if (order.place(i - 1) != order.place(i)) continue;
-            ++same;
-            ASSERT_LT(order.index(i - 1), order.index(i));
-        }
-        begin = end;
-    }
-    EXPECT_GT(inner, 1000u);
-    EXPECT_GT(same, 1000u);
-}
-
-TEST(LocalFrame, PutsAnySceneIntoTheUnitCubeAndRoundsOutward) {
-    std::mt19937_64 random(3);
-    for (const double size : {1e-140, 1e-6, 1.0, 3e7, 1e140}) {
-        for (const double shift : {0.0, 1.0, -1e6}) {
-            const Box3 all{{shift * size, -size, 2 * size}, {shift * size + size, size, 3 * size}};
-            const LocalFrame frame(all);
-            EXPECT_TRUE(contains(FloatBox{{-1, -1, -1}, {1, 1, 1}}, frame.local(all)));
-            for (int i = 0; i < 1000; ++i) {
-                const double t = static_cast<double>(uniform(random));
-                const Vec3 p = all.lo + 0.5 * (1 + t) * (all.hi - all.lo);
-                const Vec3 q = frame.local(p);
-                const FloatBox point = frame.local(Box3{p, p});
-                for (int k = 0; k < 3; ++k) {
-                    EXPECT_LE(static_cast<double>(point.lo[k]), q[k]);
-                    EXPECT_GE(static_cast<double>(point.hi[k]), q[k]);
-                    EXPECT_LE(point.hi[k] - point.lo[k], 0x1p-23f);
-                }
-            }
-        }
-    }
-}
-
-TEST(LocalFrame, HoldsTheFloatsOfAnySceneExactly) {
-    std::mt19937_64 random(5);
-    for (const Vec3 offset : {Vec3{0, 0, 0}, Vec3{2.4, 15.23, -1.34}, Vec3{1e6, -3.3e5, 7e-3},
-                              Vec3{0.71, 1.9, 4.1}, Vec3{-1.01, 1.07, 1.13}}) {
-        for (const Vec3 size : {Vec3{1, 1, 1}, Vec3{0.01, 2, 0.3}, Vec3{1.7, 1e-4, 1e-9}}) {
-            std::vector<Vec3> points;
-            Box3 all;
-            for (int i = 0; i < 1000; ++i) {
-                Vec3 p;
-                for (int k = 0; k < 3; ++k) {
-                    const double x = offset[k] + size[k] * static_cast<double>(uniform(random));
-                    p[k] = static_cast<double>(static_cast<float>(x));
-                }
-                points.push_back(p);
-                all.include(p);
-            }
-            const LocalFrame frame(all);
-            for (const Vec3& p : points) {
-                const Vec3 q = frame.local(p);
-                ASSERT_EQ(frame.world(q), p);
-                for (int k = 0; k < 3; ++k) {
-                    ASSERT_EQ(static_cast<double>(static_cast<float>(q[k])), q[k]);
-                }
-            }
-        }
-    }
-}
-
-TEST(LocalFrame, RoundsInTheDirectionAskedForByLessThanOneStep) {
-    std::mt19937_64 random(4);
-    constexpr float kInf = std::numeric_limits<float>::infinity();
-    for (int i = 0; i < 200000; ++i) {
-        const double x = std::ldexp(static_cast<double>(uniform(random)) + 1e-9,
-                                    static_cast<int>(random() % 340) - 170);
-        const float down = round_down(x), up = round_up(x);
-        ASSERT_TRUE(static_cast<double>(down) <= x && x <= static_cast<double>(up)) << x;
-        ASSERT_TRUE(up == down || std::nextafter(down, kInf) == up) << x;
-    }
-    EXPECT_EQ(round_down(0.0), 0.0f);
-    EXPECT_LT(round_down(-1e-300), 0.0f);
-    EXPECT_EQ(round_up(1e300), kInf);
-    EXPECT_EQ(round_down(1e300), std::numeric_limits<float>::max());
 }
 
 }  // namespace
