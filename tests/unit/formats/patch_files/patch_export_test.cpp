@@ -94,11 +94,10 @@ TEST(PatchExport, NurbsSurfacesComeBackWithTheirLoops) {
 
 TEST(PatchExport, AMirroringPlacementReversesU) {
     testing::Random random(22);
-    const auto patch = RandomShape<BezierPatch>::make({random, false});
+    auto patch = RandomShape<BezierPatch>::make({random, false});
     const Affine mirror = Affine::scale({-1, 1, 1});
-    const BezierNet own = patch.net();
     const auto check = [&](const testing::Imported& read) {
-        const BezierNet net = mesh_of(read).net(0);
+        const BezierNet own = patch.net(), net = mesh_of(read).net(0);
         ASSERT_EQ(net.degree_u, own.degree_u);
         ASSERT_EQ(net.degree_v, own.degree_v);
         for (int i = 0; i <= own.degree_u; ++i) {
@@ -109,6 +108,7 @@ TEST(PatchExport, AMirroringPlacementReversesU) {
         }
     };
     check(read_back<ObjImporter>(AnyShape{patch}, mirror));
+    patch.weights.clear();  // a .bpt file has none
     check(read_back<BptImporter>(AnyShape{patch}, mirror));
 }
 

@@ -25,7 +25,8 @@ Lexed lex(const SourceText& source) {
 
 TEST(Lexer, ACommentEndsWithItsLineWhateverEndsTheLine) {
     for (const char* end : {"\n", "\r\n", "\r"}) {
-        const SourceText source("1 // a" + std::string(end) + "2", "f");
+        const std::string text = "1 // a" + std::string(end) + "2";
+        const SourceText source(text, "f");
         EXPECT_EQ(lex(source).tokens.size(), 2u);
     }
 }
