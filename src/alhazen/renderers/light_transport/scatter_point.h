@@ -13,7 +13,6 @@
 /// sheets are.
 
 #include <array>
-#include <cstdint>
 #include <optional>
 
 #include "alhazen/renderers/core/local_shading.h"
@@ -174,9 +173,8 @@ class ScatterPoint {
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool null_ = false;
-    bool media_known_ = false;             ///< the media are stated by a solid
-    std::optional<std::uint32_t> before_;  ///< the material of the one that is left, if so
-    bool behind_inside_ = false;
+    bool media_known_ = false;  ///< the media are stated by a solid
+    bool enters_volume_ = true, is_wall_ = false;
 };
 
 }  // namespace alhazen
