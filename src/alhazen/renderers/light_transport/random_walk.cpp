@@ -181,7 +181,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     v.hero_only = front.waves.hero_only();
     if (point_.material->unlit) return Step::Ends;
     const double straight = v.scatter.straight_probability();
-    if (ends.last && !v.scatter.is_null_boundary() && !(straight > 0.0)) return Step::Ends;
+    if (ends.last && !v.scatter.may_be_passed()) return Step::Ends;
     const Vec2 u = draws.random.draw(draws.id, pair);
     const Vec2 choices = draws.random.draw(draws.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);

@@ -31,11 +31,11 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
 
 /// True if boundaries between volumes of the same index are passed straight at the surface: in
 /// scenes with scattering volumes, or if its materials may have the index of the air.
-bool may_be_null(const Scene& scene, const Surface& surface) {
+bool may_be_null_boundary(const Scene& scene, const Surface& surface) {
     if (scene.has_scattering) return true;
     for (std::size_t i = 0; i < std::size_t(surface.material_count); ++i) {
-        if (!may_pass_straight(scene.material_of(surface, i),
-                               scene.conventions.shading.air_index)) {
+        if (!may_be_null_boundary(scene.material_of(surface, i),
+                                  scene.conventions.shading.air_index)) {
             return false;
         }
     }
@@ -116,7 +116,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     set_coat(scene, point, tangent);
     null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
             material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
-            bsdf().refracts_alone() && may_be_null(scene, surface);
+            bsdf().refracts_alone() && may_be_null_boundary(scene, surface);
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;

@@ -88,6 +88,8 @@ class ScatterPoint {
     [[nodiscard]] double straight_probability() const {
         return thin_ ? (1.0 - coat_share_) * bsdf().straight_probability(local_view_) : 0.0;
     }
+    /// True if paths may pass the surface straight.
+    [[nodiscard]] bool may_be_passed() const { return null_ || straight_probability() > 0.0; }
     [[nodiscard]] bool has_density() const {
         return bsdf().has_density() || (coat_ && coat_->has_density());
     }

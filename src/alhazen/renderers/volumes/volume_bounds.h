@@ -17,8 +17,8 @@ namespace alhazen {
 }
 
 /// True if a surface of the material may bound a volume of the index of the air without any other
-/// effect: light passes it straight.
-[[nodiscard]] inline bool may_pass_straight(const Material& m, double air) {
+/// effect: light passes it straight (ScatterPoint::is_null_boundary).
+[[nodiscard]] inline bool may_be_null_boundary(const Material& m, double air) {
     if (!may_bound_volume(m) || (m.index.texture == kNoTexture && m.index.value != air)) {
         return false;
     }
