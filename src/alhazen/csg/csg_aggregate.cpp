@@ -1,6 +1,7 @@
 #include "alhazen/csg/csg_aggregate.h"
 
 #include "alhazen/math/constants.h"
+#include "alhazen/primitives/primitive_columns.h"
 
 #include <utility>
 
@@ -15,6 +16,16 @@ const PrimitiveTable& table_of(const PrimitiveTable& outer, const Hit& hit) {
         table = &table->instances[table->index(hit.path[i])].aggregate->primitives();
     }
     return *table;
+}
+
+/// The number of the part that placed a primitive of a solid.
+std::uint32_t part_of(const PrimitiveTable& table, PrimitiveId primitive) {
+    const std::uint32_t kind = table.kind(primitive), index = table.index(primitive);
+    if (kind == kInstanceKind) return table.instances[index].part;
+    if (kind == kTriangleKind) return table.mesh_of(index).part;
+    return with_column(table.columns, kind, [&](const auto& column) {
+        return column.parts.empty() ? 0 : column.parts[index];
+    });
 }
 
 /// True if a closed mesh is wound so that its normals point inward.
@@ -34,6 +45,9 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
       sphere_(find_sphere()),
       evaluator_(find_csg_evaluator(evaluator).make(solid_)),
       turned_(solid_.table().size(), false) {
+    if (solid_.leaf_count() > 0) {
+        number_ = part_of(primitives(), solid_.expression().leaves.front()) + std::uint64_t{1};
+    }
     if (!solid_.expression().shows_minuend.empty()) {
         shows_minuend_.resize(solid_.table().size(), false);
         for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
@@ -135,7 +149,7 @@ CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId p
         if (leaf == CsgTree::kNone) return std::nullopt;
         return solid_.material(leaf);
     };
-    look.media = {solid_.has_media(), material_of(sides.before), material_of(sides.after)};
+    look.media = {solid_.has_media(), material_of(sides.before), material_of(sides.after), number_};
     const bool is_wall = look.media.before && look.media.after;
     if (of_minuend) {
         look.material = look.media.after ? look.media.after : look.media.before;

@@ -53,6 +53,7 @@ class CsgAggregate final : public SolidAggregate {
     [[nodiscard]] BoundingSphere find_sphere() const;
 
     CsgSolid solid_;
+    std::uint64_t number_ = 0;  ///< SurfaceMedia::solid
     BoundingSphere sphere_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
     std::vector<bool> shows_minuend_;  ///< [primitive]; empty: false for all

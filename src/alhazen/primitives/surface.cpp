@@ -246,6 +246,7 @@ bool surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
             carry_outward(instance.placement, with_uv, surface);
         }
         if (!instance.holds_rest) surface.instance = instance.part;
+        if (surface.media.known) surface.media.place_in(instance.part);
         if (instance.of_shared_mesh) surface.part = instance.part;
         aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
         return with_uv;

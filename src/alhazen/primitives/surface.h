@@ -19,6 +19,10 @@ namespace alhazen {
 struct SurfaceMedia {
     bool known = false;
     std::optional<MaterialId> before, after;
+    std::uint64_t solid = 0;  ///< identifies the placed solid
+
+    /// Changes `solid` for one within the instance of that part.
+    void place_in(std::uint32_t part) { solid = solid * 0x9E3779B97F4A7C15u + part; }
 };
 
 /// A surface point in world space. `normal` is the geometric normal, outward for closed shapes;

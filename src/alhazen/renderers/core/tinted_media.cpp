@@ -8,8 +8,9 @@ namespace {
 
 /// Identifies what bounds the volumes of a surface; a solid of several media is one body.
 std::uint64_t body_of(const Surface& surface) {
-    const std::uint64_t instance = std::uint64_t{surface.instance} << 32;
-    return instance | (surface.media.known ? 0xFFFFFFFFu : surface.part);
+    const SurfaceMedia& media = surface.media;
+    if (media.known) return media.solid;
+    return std::uint64_t{surface.instance} << 32 | surface.part;
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 
 namespace alhazen {
 
@@ -161,7 +163,7 @@ Spectrum ConnectionBatch::through_volumes(const Ray& ray, float time, RayKind ki
     if (met) {
         crossed_.clear();
         for (const Hit& crossing : crossings_) {
-            if (take_crossed(crossing)) continue;
+            if (is_crossed(ray, crossing, time)) continue;
             pass_volume(crossing.t);
             share = share * through(ray, time, kind, crossing, waves, &around);
             if (share.is_black()) return share;
@@ -171,16 +173,11 @@ Spectrum ConnectionBatch::through_volumes(const Ray& ray, float time, RayKind ki
     return share;
 }
 
-bool ConnectionBatch::take_crossed(const Hit& hit) {
-    if (crossed_.empty()) return false;
-    const std::uint64_t part = part_number(parts_of(*scene_.aggregate, hit));
-    for (OtherFace& face : crossed_) {
-        if (face.inside.part != part) continue;
-        face = crossed_.back();
-        crossed_.pop_back();
-        return true;
-    }
-    return false;
+bool ConnectionBatch::is_crossed(const Ray& ray, const Hit& hit, float time) {
+    if (crossed_.empty() || hit.t > crossed_to_) return false;
+    set_surface(*scene_.aggregate, ray, hit, CoordinateNeed::none(), surface_, time);
+    const std::uint64_t number = volume_number(surface_);
+    return std::find(crossed_.begin(), crossed_.end(), number) != crossed_.end();
 }
 
 Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
@@ -191,7 +188,11 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
         faces_.find(point, ray.direction, arrival, mask_for(kind));
-        crossed_ = faces_.others();
+        crossed_.clear();
+        for (const OtherFace& other : faces_.others()) crossed_.push_back(other.inside.part);
+        // Rays hit it twice.
+        if (is_wall(point.surface)) crossed_.push_back(volume_number(point.surface));
+        crossed_to_ = crossing.t + 2.0 * CoincidentSurfaces::reach(point.surface, ray.direction);
     }
     const double coverage = point.material->coverage;
     if (coverage == 0.0 && media == nullptr) return Spectrum::all(1);
@@ -199,7 +200,7 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     if (point.material->thin || media != nullptr) {
         ScatterPoint scatter;
         scatter.set(scene_, point, media != nullptr ? *media : MediumStack(), waves, false, nullptr,
-                    media != nullptr ? &crossed_ : nullptr);
+                    media != nullptr ? &faces_.others() : nullptr);
         covered = scatter.straight();
         if (scatter.is_null_boundary()) {
             scatter.cross(*media);

@@ -91,8 +91,8 @@ class ConnectionBatch {
     /// volumes are not followed.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
                                    const Wavelengths& waves, MediumStack* media);
-    /// Removes the face of the hit from `crossed_`. False if it is none of them.
-    [[nodiscard]] bool take_crossed(const Hit& hit);
+    /// True if the face of the hit was crossed with the surface before.
+    [[nodiscard]] bool is_crossed(const Ray& ray, const Hit& hit, float time);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
                                    const MediumStack& media, const Wavelengths& waves,
                                    FreeFlight* flight);
@@ -110,7 +110,9 @@ class ConnectionBatch {
     std::vector<MediumStack> around_;  ///< [ray]; only if volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
-    OtherFaces crossed_;  ///< faces that were crossed with a surface and are still to be skipped
+    std::vector<std::uint64_t> crossed_;  ///< volumes whose faces were crossed with a surface
+    double crossed_to_ = 0;               ///< end of these faces along the ray
+    Surface surface_;                     ///< of `is_crossed`
 };
 
 }  // namespace alhazen

@@ -8,6 +8,7 @@
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/scene/scene_sphere.h"
 
 namespace alhazen {
@@ -108,7 +109,6 @@ class MediaFinder::Crossings {
     void cross(const std::vector<Hit>& hits) {
         for (std::size_t i = 0; i < hits.size();) {
             here_.clear();
-            parts_.clear();
             const std::size_t first = i++;
             if (!add(hits[first], first_)) continue;
             // Within this distance they coincide.
@@ -124,8 +124,6 @@ class MediaFinder::Crossings {
     /// Adds the boundary at a hit. False if there is none before the end of the ray.
     bool add(const Hit& hit, ShadingPoint& at);
     void cross_all_here();
-    /// Crosses the surface of a solid of several media, which states them.
-    void cross_stated(const ShadingPoint& at, bool endless);
 
     const Scene& scene_;
     const MediaFinder& finder_;
@@ -136,7 +134,6 @@ class MediaFinder::Crossings {
     Found found_;
     ShadingPoint first_, other_;
     OtherFaces here_;
-    std::vector<HitParts> parts_;  ///< [face of here_]
 };
 
 bool MediaFinder::Crossings::add(const Hit& hit, ShadingPoint& at) {
@@ -144,24 +141,27 @@ bool MediaFinder::Crossings::add(const Hit& hit, ShadingPoint& at) {
     set_shading_point(scene_, ray_, hit, arrival_, {}, at);
     if (end_.is_before(hit, at.surface, ray_.direction)) return false;
     const bool endless = finder_.reaches_infinity_ && finder_.is_endless(hit);
-    if (at.surface.media.known) {
-        cross_stated(at, endless);
-        return true;
-    }
     const std::optional<Medium> inside = faces_.volume_behind(hit, at);
     if (!inside) return false;
-    const HitParts parts{at.surface.part, at.surface.instance};
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-        if (!(parts_[k] == parts)) continue;
-        // The edge between two pieces of a part, or one that is entered and left at once.
-        if (here_[k].entering != at.entering) {
-            here_.erase(here_.begin() + static_cast<std::ptrdiff_t>(k));
-            parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(k));
-        }
-        return true;
+    const bool entering = enters_volume(at), wall = is_wall(at.surface);
+    const auto same = std::find_if(here_.begin(), here_.end(), [&](const OtherFace& face) {
+        return face.inside.part == inside->part;
+    });
+    if (same == here_.end()) {
+        here_.push_back(
+            {.inside = *inside, .entering = entering, .wall = wall, .endless = endless});
+    } else if (at.surface.media.known) {
+        // Rays hit a wall twice; of several faces the first and the last count.
+        const bool was_inside = !same->entering, is_inside = entering || wall;
+        *same = {.inside = *inside,
+                 .entering = !was_inside,
+                 .wall = was_inside && is_inside,
+                 .endless = same->endless};
+        if (!was_inside && !is_inside) here_.erase(same);
+    } else if (same->entering != entering) {
+        // Else the edge between two pieces of a part.
+        here_.erase(same);
     }
-    parts_.push_back(parts);
-    here_.push_back({*inside, at.entering, false, endless, false, {}});
     return true;
 }
 
@@ -169,30 +169,16 @@ void MediaFinder::Crossings::cross_all_here() {
     // Volumes are left before others are entered: new ones are innermost.
     for (const OtherFace& face : here_) {
         if (face.entering) continue;
-        found_.all.leave(face.inside);
-        if (face.endless) found_.endless.leave(face.inside);
+        for (MediumStack* const found : {&found_.all, &found_.endless}) {
+            if (found == &found_.endless && !face.endless) continue;
+            face.wall ? found->change(face.inside) : found->leave(face.inside);
+        }
     }
     faces_.sort(here_, first_, ray_.direction, arrival_);
     for (const OtherFace& face : here_) {
         if (!face.entering) continue;
         found_.all.enter(face.inside);
         if (face.endless) found_.endless.enter(face.inside);
-    }
-}
-
-void MediaFinder::Crossings::cross_stated(const ShadingPoint& at, bool endless) {
-    const SurfaceMedia& media = at.surface.media;
-    std::uint32_t before = 0;
-    Medium after;
-    if (media.before) before = static_cast<std::uint32_t>(*media.before);
-    if (media.after) {
-        const MaterialSample sample = medium_at(scene_, at.surface, *media.after);
-        after = {part_number({at.surface.part, at.surface.instance}), sample.index,
-                 sample.absorption, static_cast<std::uint32_t>(*media.after), true};
-    }
-    for (MediumStack* const found : {&found_.all, &found_.endless}) {
-        if (found == &found_.endless && !endless) continue;
-        found->cross_stated(media.before ? &before : nullptr, media.after ? &after : nullptr);
     }
 }
 

@@ -181,19 +181,22 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     v.hero_only = front.waves.hero_only();
     if (point_.material->unlit) return Step::Ends;
     const double straight = v.scatter.straight_probability();
-    if (ends.last && !v.scatter.is_null_boundary() && !(straight > 0.0)) return Step::Ends;
+    if (ends.last && !v.scatter.may_be_passed()) return Step::Ends;
     const Vec2 u = draws.random.draw(draws.id, pair);
     const Vec2 choices = draws.random.draw(draws.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
-    // A thin sheet that is passed straight, by chance, is no vertex.
-    if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
-        v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
-    }
-    if (straight == 1.0 && !v.emission.is_black()) {
-        // Half of the paths end at a sheet that shines, or none would show its light.
-        v.throughput = 2.0 * v.throughput;
-        if (choices.y < 0.5) return Step::Ends;
-        front.throughput = 2.0 * front.throughput;
+    if (straight > 0.0) {
+        // A thin sheet that is passed straight, by chance, is no vertex. One that shines is one for
+        // half of the paths at least, some of which end there, or few would show its light.
+        const double scattered = 1.0 - straight;
+        const double stays = v.emission.is_black() ? scattered : std::max(scattered, 0.5);
+        const double ended = (stays - scattered) / straight;
+        const bool ends_here = choices.y < ended;
+        if (stays > 0.0 && (ends_here || !(drawn && drawn->straight))) {
+            v.throughput = (1.0 / stays) * v.throughput;
+        }
+        if (ends_here) return Step::Ends;
+        front.throughput = (1.0 / (1.0 - ended)) * front.throughput;
     }
     if (!drawn || drawn->weight.is_black() || (ends.last && !drawn->straight)) return Step::Ends;
     front.throughput = front.throughput * drawn->weight;

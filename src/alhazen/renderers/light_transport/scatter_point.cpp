@@ -29,17 +29,13 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
 }
 
-std::uint32_t number_of(MaterialId id) {
-    return static_cast<std::uint32_t>(id);
-}
-
 /// True if boundaries between volumes of the same index are passed straight at the surface: in
 /// scenes with scattering volumes, or if its materials may have the index of the air.
-bool may_be_null(const Scene& scene, const Surface& surface) {
+bool may_be_null_boundary(const Scene& scene, const Surface& surface) {
     if (scene.has_scattering) return true;
     for (std::size_t i = 0; i < std::size_t(surface.material_count); ++i) {
-        if (!may_pass_straight(scene.material_of(surface, i),
-                               scene.conventions.shading.air_index)) {
+        if (!may_be_null_boundary(scene.material_of(surface, i),
+                                  scene.conventions.shading.air_index)) {
             return false;
         }
     }
@@ -99,17 +95,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     inside_ = volume_of(scene, point);
     others_.clear();
     if (others != nullptr) others_ = *others;
+    enters_volume_ = enters_volume(point);
+    is_wall_ = is_wall(surface);
     media_known_ = point.behind.known;
-    if (media_known_) {
-        before_.reset();
-        if (const auto& before = surface.media.before) before_ = number_of(*before);
-        behind_inside_ = point.behind.inside;
-        inside_.stated = true;
-        inside_.absorption = point.behind.absorption;
-        if (const auto& after = surface.media.after) {
-            inside_.material = static_cast<std::uint32_t>(*after);
-        }
-    }
     const Spectrum all = etas(scene, point, media, waves);
     if (point.coat_is_tilted) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
@@ -128,7 +116,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     set_coat(scene, point, tangent);
     null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
             material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
-            bsdf().refracts_alone() && may_be_null(scene, surface);
+            bsdf().refracts_alone() && may_be_null_boundary(scene, surface);
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
@@ -150,22 +138,8 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     };
     const double air = scene.conventions.shading.air_index;
     const auto material = [&](std::uint32_t i) -> const Material& { return scene.materials[i]; };
-    if (media_known_) {
-        const SurfaceMedia& stated = point.surface.media;
-        const Medium* const around = stated.before && stated.after ? nullptr
-                                     : before_                     ? media.without_stated(*before_)
-                                                                   : media.here();
-        if (!waves.is_spectral() && around == nullptr) return Spectrum::all(point.behind.eta);
-        const auto index = [&](const std::optional<MaterialId>& id) {
-            if (!id && around == nullptr) return Spectrum::all(air);
-            if (!id) return index_of(material(around->material), around->index, waves);
-            const Material& m = material(static_cast<std::uint32_t>(*id));
-            return index_of(m, value_at(m.index, scene.textures, lookup_at(point.surface)), waves);
-        };
-        return over(index(stated.before), index(stated.after));
-    }
     const double own = point.material->index;
-    if (thin_ || !(own > 0.0)) return {};
+    if (!media_known_ && (thin_ || !(own > 0.0))) return {};
     if (!others_.empty()) {
         MediumStack behind = media;
         cross(behind);
@@ -174,6 +148,22 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
                                 : index_of(material(m->material), m->index, waves);
         };
         return over(index(media.here()), index(behind.here()));
+    }
+    if (media_known_) {
+        const SurfaceMedia& stated = point.surface.media;
+        // Within another volume, the innermost, nothing changes.
+        if (!enters_volume_ && media.within(inside_) != nullptr) return Spectrum::all(1);
+        const Medium* const around = is_wall_         ? nullptr
+                                     : enters_volume_ ? media.here()
+                                                      : media.without(inside_);
+        if (!waves.is_spectral() && around == nullptr) return Spectrum::all(point.behind.eta);
+        const auto index = [&](const std::optional<MaterialId>& id) {
+            if (!id && around == nullptr) return Spectrum::all(air);
+            if (!id) return index_of(material(around->material), around->index, waves);
+            const Material& m = material(static_cast<std::uint32_t>(*id));
+            return index_of(m, value_at(m.index, scene.textures, lookup_at(point.surface)), waves);
+        };
+        return over(index(stated.before), index(stated.after));
     }
     const Medium* const around = entering_ ? media.here() : media.without(inside_);
     const double outside = around != nullptr ? around->index : air;
@@ -426,21 +416,25 @@ double ScatterPoint::importance_correction(const Vec3& direction) const {
 
 void ScatterPoint::cross(MediumStack& media) const {
     if (thin_) return;
-    if (media_known_) {
-        media.cross_stated(before_ ? &*before_ : nullptr, behind_inside_ ? &inside_ : nullptr);
-    } else {
-        // Volumes are left before others are entered: new ones are innermost.
-        if (!entering_) media.leave(inside_);
-        for (const OtherFace& other : others_) {
-            if (!other.entering) media.leave(other.inside);
+    // Volumes are left before others are entered: new ones are innermost.
+    if (is_wall_) {
+        media.change(inside_);
+    } else if (!enters_volume_) {
+        media.leave(inside_);
+    }
+    for (const OtherFace& other : others_) {
+        if (other.wall) {
+            media.change(other.inside);
+        } else if (!other.entering) {
+            media.leave(other.inside);
         }
-        for (const OtherFace& other : others_) {
-            if (other.entering && other.around) media.enter(other.inside);
-        }
-        if (entering_) media.enter(inside_);
-        for (const OtherFace& other : others_) {
-            if (other.entering && !other.around) media.enter(other.inside);
-        }
+    }
+    for (const OtherFace& other : others_) {
+        if (other.entering && other.around) media.enter(other.inside);
+    }
+    if (enters_volume_) media.enter(inside_);
+    for (const OtherFace& other : others_) {
+        if (other.entering && !other.around) media.enter(other.inside);
     }
 }
 

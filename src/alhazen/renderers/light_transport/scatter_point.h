@@ -13,7 +13,6 @@
 /// sheets are.
 
 #include <array>
-#include <cstdint>
 #include <optional>
 
 #include "alhazen/renderers/core/local_shading.h"
@@ -89,6 +88,8 @@ class ScatterPoint {
     [[nodiscard]] double straight_probability() const {
         return thin_ ? (1.0 - coat_share_) * bsdf().straight_probability(local_view_) : 0.0;
     }
+    /// True if paths may pass the surface straight.
+    [[nodiscard]] bool may_be_passed() const { return null_ || straight_probability() > 0.0; }
     [[nodiscard]] bool has_density() const {
         return bsdf().has_density() || (coat_ && coat_->has_density());
     }
@@ -174,9 +175,8 @@ class ScatterPoint {
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool null_ = false;
-    bool media_known_ = false;             ///< the media are stated by a solid
-    std::optional<std::uint32_t> before_;  ///< the material of the one that is left, if so
-    bool behind_inside_ = false;
+    bool media_known_ = false;  ///< the media are stated by a solid
+    bool enters_volume_ = true, is_wall_ = false;
 };
 
 }  // namespace alhazen

@@ -36,24 +36,21 @@ class ScatteringMedia {
                             [](const Material& m) {
                                 return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
                             })),
-          straight_(
-              std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
-                  return may_pass_straight(m, scene.conventions.shading.air_index);
-              })) {}
+          null_(std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+              return may_be_null_boundary(m, scene.conventions.shading.air_index);
+          })) {}
 
     /// True if some medium scatters.
     [[nodiscard]] bool any() const { return scene_.has_scattering; }
     /// True if some boundary of a volume may have a coverage below 1.
     [[nodiscard]] bool has_open_boundaries() const { return open_; }
-    /// True if some boundary of a volume may be passed straight (ScatterPoint::is_null_boundary).
-    [[nodiscard]] bool have_null_boundaries() const { return any() || straight_; }
-    /// False if a surface of the material is certain not to be passed straight: it is neither a
-    /// clear thin sheet nor a null boundary.
-    [[nodiscard]] bool may_be_passed_straight(const MaterialSample& m) const {
-        return have_null_boundaries() || (m.thin && !m.transmissive.is_black());
+    /// True if a surface of the material is a clear thin sheet, or any surface of the scene may be
+    /// a null boundary: ScatterPoint::may_be_passed decides.
+    [[nodiscard]] bool may_be_passed(const MaterialSample& m) const {
+        return any() || null_ || (m.thin && !m.transmissive.is_black());
     }
     /// True if a straight ray may pass through more than one volume.
-    [[nodiscard]] bool are_followed() const { return any() || open_ || straight_; }
+    [[nodiscard]] bool are_followed() const { return any() || open_ || null_; }
     /// The scattering of a medium; null: none.
     [[nodiscard]] const VolumeScattering* in(const Medium& medium) const {
         if (!any()) return nullptr;
@@ -70,7 +67,7 @@ class ScatteringMedia {
 
   private:
     const Scene& scene_;
-    bool open_, straight_;
+    bool open_, null_;
 };
 
 }  // namespace alhazen

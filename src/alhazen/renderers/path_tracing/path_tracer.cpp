@@ -182,14 +182,13 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
                       Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
-    if (point.material->unlit || (deepest && !media_.may_be_passed_straight(*point.material))) {
+    if (point.material->unlit || (deepest && !media_.may_be_passed(*point.material))) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
     Vertex& vertex = vertices_[waiting_];
     vertex.scatter.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-    if (deepest && !vertex.scatter.is_null_boundary() &&
-        !(vertex.scatter.straight_probability() > 0.0)) {
+    if (deepest && !vertex.scatter.may_be_passed()) {
         record_step(path, PathStep::Deepest);
         return;
     }

@@ -113,11 +113,9 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         sum += emitted(at);
         const bool deepest = at.last.scatterings >= settings_.depth;
         if (point.material->unlit) return;
-        if (deepest && !next_.media().may_be_passed_straight(*point.material)) return;
+        if (deepest && !next_.media().may_be_passed(*point.material)) return;
         scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others());
-        if (deepest && !scatter_.is_null_boundary() && !(scatter_.straight_probability() > 0.0)) {
-            return;
-        }
+        if (deepest && !scatter_.may_be_passed()) return;
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         const int here = event;
         if (scatter_.has_density() && !deepest) {

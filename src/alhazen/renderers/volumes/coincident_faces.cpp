@@ -79,19 +79,20 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const Surface& surface = point.surface;
     const auto material = static_cast<std::size_t>(surface.materials[0]);
     if (!kinds_ || (*kinds_)[material] != Kind::BoundsVolume) return;
-    if (surface.media.known || point.material->thin || point.material->coverage < 1.0) return;
+    if (point.material->thin || point.material->coverage < 1.0) return;
     ray_ = CoincidentSurfaces::around(surface, direction);
     hits_.clear();
     scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
     const HitParts own{surface.part, surface.instance};
     for (const Hit& hit : hits_) {
-        if (!(parts_of(*scene_.aggregate, hit) == own)) look_at(hit, arrival);
+        if (parts_of(*scene_.aggregate, hit) == own) continue;
+        look_at(hit, volume_number(surface), arrival);
     }
     if (opaque_) {
         others_.clear();
     } else if (!others_.empty()) {
         const Medium inside = volume_of(scene_, point);
-        sort_entered(point, point.entering ? &inside : nullptr, direction, arrival, mask);
+        sort_entered(point, enters_volume(point) ? &inside : nullptr, direction, arrival, mask);
     }
 }
 
@@ -108,6 +109,7 @@ std::optional<Medium> CoincidentFaces::volume_behind(const Hit& hit,
                                                      const ShadingPoint& point) const {
     if (!kinds_) return std::nullopt;
     const Surface& surface = point.surface;
+    if (surface.media.known) return volume_of(scene_, point);
     const std::uint32_t medium = medium_of_solid(scene_, hit);
     if (medium == CsgSolid::kOpaque) return std::nullopt;
     const auto bounds_by = [&](int i) {
@@ -120,8 +122,7 @@ std::optional<Medium> CoincidentFaces::volume_behind(const Hit& hit,
         if (bounds_by(0)) return volume_of(scene_, point);
         const MaterialSample inside = medium_at(scene_, surface, id);
         if (inside.thin) return std::nullopt;
-        return Medium{part_number({surface.part, surface.instance}), inside.index,
-                      inside.absorption, medium};
+        return Medium{volume_number(surface), inside.index, inside.absorption, medium};
     }
     for (int i = 0; i < surface.material_count; ++i) {
         if (bounds_by(i)) return volume_of(scene_, point);
@@ -138,18 +139,29 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     opaque_.reset();
 }
 
-void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
+void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
-    if (other_.surface.media.known || other_.material->thin || other_.material->coverage < 1.0)
-        return;
+    if (other_.material->thin || other_.material->coverage < 1.0) return;
+    const bool known = other_.surface.media.known;
+    if (known) {
+        // Rays hit a wall twice.
+        const std::uint64_t number = volume_number(other_.surface);
+        const auto is_same = [&](const OtherFace& face) { return face.inside.part == number; };
+        if (number == own || std::any_of(others_.begin(), others_.end(), is_same)) return;
+    }
     const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
     if ((*kinds_)[material] == Kind::Opaque) {
         if (!opaque_) opaque_ = hit;
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {
         const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
         const MaterialSample& sample = *other_.material;
-        others_.push_back({volume_of(scene_, other_), other_.entering, false, !box.bounded(),
-                           sample.physical, sample.transmissive});
+        others_.push_back({.inside = volume_of(scene_, other_),
+                           .entering = enters_volume(other_),
+                           .wall = is_wall(other_.surface),
+                           .endless = !box.bounded(),
+                           .known = known,
+                           .physical = sample.physical,
+                           .kt = sample.transmissive});
     }
 }
 
@@ -202,9 +214,9 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium* o
         if (!may_bound(hit)) continue;
         set_shading_point(scene_, ray, hit, arrival, {}, other_);
         const std::optional<Medium> behind = volume_behind(hit, other_);
-        if (!behind) continue;
+        if (!behind || is_wall(other_.surface)) continue;
         const Medium& volume = *behind;
-        if (other_.entering) {
+        if (enters_volume(other_)) {
             within_.push_back({volume.part, volume.material, entered_.size()});
             continue;
         }

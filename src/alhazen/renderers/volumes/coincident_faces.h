@@ -7,7 +7,8 @@
 /// surface hit. Else all are crossed together: one boundary between the volumes before and behind,
 /// with the BSDF of the face that was hit. Of volumes entered together the one that is left last is
 /// outermost, independent of the order of the parts; if no ray distinguishes them, the one of the
-/// lowest primitive. Partly covering faces, thin sheets and solids of several media are ignored.
+/// lowest primitive. A solid of several media is one volume; a face of it may be a wall between two
+/// of them. Partly covering faces and thin sheets are ignored.
 
 #include <array>
 #include <cstddef>
@@ -25,8 +26,10 @@ namespace alhazen {
 struct OtherFace {
     Medium inside;  ///< of the volume that it bounds
     bool entering = true;
+    bool wall = false;      ///< of a solid of several media; `inside` is behind it
     bool around = false;    ///< its volume surrounds that of the face that was hit
     bool endless = false;   ///< its primitive is unbounded
+    bool known = false;     ///< its volume is a solid of several media
     bool physical = false;  ///< its material (MaterialSample::physical)
     Rgb kt;                 ///< of its material
 };
@@ -54,8 +57,7 @@ class CoincidentFaces {
     /// False if the surface at a hit is known to bound no volume.
     [[nodiscard]] bool may_bound(const Hit& hit) const;
     /// The volume that a surface bounds, whether light enters it there or not: behind an opaque
-    /// wall of a solid lies the medium of that solid. `point`: of the hit. Not for solids of
-    /// several media.
+    /// wall of a solid lies the medium of that solid. `point`: of the hit.
     [[nodiscard]] std::optional<Medium> volume_behind(const Hit& hit,
                                                       const ShadingPoint& point) const;
     /// Sorts faces at the surface of `point`: those that are entered first, the outermost volume
@@ -78,7 +80,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
-    void look_at(const Hit& hit, const Arrival& arrival);
+    /// `own`: the volume of the face that was hit.
+    void look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival);
     /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is
     /// entered.
     void sort_entered(const ShadingPoint& point, const Medium* own, const Vec3& direction,

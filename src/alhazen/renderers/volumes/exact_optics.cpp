@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "alhazen/renderers/core/tinted_media.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
@@ -106,7 +107,7 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {
-    const std::uint64_t part = part_number({surface.part, surface.instance});
+    const std::uint64_t part = volume_number(surface);
     for (std::uint32_t m = medium; m != kOutside; m = media_[m].around) {
         if (media_[m].part != part) continue;
         media_[m].hidden = true;
@@ -184,9 +185,10 @@ const OtherFaces& ExactOptics::faces_at(const Ray& ray, const Hit& crossing, flo
 ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialSample& material,
                                          bool entering, std::uint32_t around,
                                          const OtherFaces& others) {
-    if (surface.media.known) return known_sides_of(surface, around);
-    if (!others.empty() && bounds_a_volume(material) && !is_open(material.physical, surface.part)) {
-        return sides_of_all(medium_of(surface, material), entering, around, others);
+    const bool known = surface.media.known;
+    if (known || (!others.empty() && bounds_a_volume(material) &&
+                  !is_open(material.physical, surface.part))) {
+        return sides_of_all(face_of(surface, material, entering), around, others);
     }
     Sides sides{media_[around].index, material.index, around};
     if (bounds_a_volume(material)) {
@@ -206,11 +208,36 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
     return sides;
 }
 
-ExactOptics::Sides ExactOptics::sides_of_all(const Medium& own, bool entering, std::uint32_t around,
+ExactOptics::Face ExactOptics::face_of(const Surface& surface, const MaterialSample& material,
+                                       bool entering) const {
+    const SurfaceMedia& media = surface.media;
+    if (!media.known) {
+        return {
+            .inside = medium_of(surface, material), .entering = entering, .index = material.index};
+    }
+    Face face{.entering = media.after && !media.before, .wall = is_wall(surface), .known = true};
+    if (media.before) {
+        const MaterialSample before = medium_at(scene_, surface, *media.before);
+        face.index = before.index;
+        // The material of a wall is that of the medium entered.
+        if (face.wall) face.tint = tint_of(before);
+    }
+    if (const auto& id = media.after ? media.after : media.before) {
+        face.inside = medium_of(surface, medium_at(scene_, surface, *id));
+        face.inside.material = static_cast<std::uint32_t>(*id);
+    }
+    return face;
+}
+
+ExactOptics::Sides ExactOptics::sides_of_all(const Face& own, std::uint32_t around,
                                              const OtherFaces& others) {
-    Sides sides{media_[around].index, 1, around, true};
+    Sides sides{.here = media_[around].index,
+                .behind = around,
+                .joined = !others.empty(),
+                .before = own.tint};
     const auto has_inside = [&](const OtherFace& other) {
-        return !is_open(other.physical, static_cast<std::uint32_t>(other.inside.part));
+        return other.known ||
+               !is_open(other.physical, static_cast<std::uint32_t>(other.inside.part));
     };
     const auto enter_those = [&](bool outside) {
         for (const OtherFace& other : others) {
@@ -219,44 +246,24 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Medium& own, bool entering, s
         }
     };
     // Volumes are left before others are entered: new ones are innermost.
-    if (!entering) {
-        sides.behind = without(own, sides.behind);
-        if (sides.behind == around) sides.here = own.index;
+    if (!own.entering) {
+        const std::uint32_t left =
+            own.wall ? of_part(own.inside, around) : place_of(own.inside, around);
+        // A volume that was not entered is that of the ray.
+        if (left == kOutside || (own.known && left == around)) sides.here = own.index;
+        sides.joined = sides.joined || (left != kOutside && left != around);
+        sides.behind = own.wall ? changed(own.inside, around) : without(own.inside, around);
     }
     for (const OtherFace& other : others) {
         if (!other.entering && has_inside(other)) {
-            sides.behind = without(medium_of(other), sides.behind);
+            sides.behind = other.wall ? changed(medium_of(other), sides.behind)
+                                      : without(medium_of(other), sides.behind);
         }
         if (!other.physical && tints_events_) sides.before = sides.before * other.kt;
     }
     enter_those(true);
-    if (entering) sides.behind = enter(own, sides.behind);
+    if (own.entering) sides.behind = enter(own.inside, sides.behind);
     enter_those(false);
-    sides.beyond = media_[sides.behind].index;
-    if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
-    return sides;
-}
-
-ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint32_t around) {
-    const SurfaceMedia& media = surface.media;
-    Sides sides;
-    // The solid is one volume, whatever its media.
-    std::uint32_t solid = around;
-    while (solid != kOutside && !media_[solid].known) solid = media_[solid].around;
-    const std::uint32_t outside = solid == kOutside ? around : remove(solid, around);
-    sides.here = media_[outside].index;
-    sides.behind = outside;
-    if (media.before) {
-        const MaterialSample before = medium_at(scene_, surface, *media.before);
-        sides.here = before.index;
-        // The material of a wall is that of the medium entered.
-        if (media.after) sides.before = tint_of(before);
-    }
-    if (media.after) {
-        Medium after = medium_of(surface, medium_at(scene_, surface, *media.after));
-        after.known = true;
-        sides.behind = enter(after, outside);
-    }
     sides.beyond = media_[sides.behind].index;
     if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
     return sides;
@@ -265,7 +272,7 @@ ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint
 ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
                                            const MaterialSample& met) const {
     Medium medium;
-    medium.part = part_number({surface.part, surface.instance});
+    medium.part = volume_number(surface);
     medium.material = static_cast<std::uint32_t>(volume_material(surface));
     const MaterialSample sample =
         surface.volume ? medium_at(scene_, surface, *surface.volume) : met;
@@ -297,14 +304,38 @@ std::uint32_t ExactOptics::enter(Medium medium, std::uint32_t around) {
     return static_cast<std::uint32_t>(media_.size() - 1);
 }
 
+std::uint32_t ExactOptics::of_part(const Medium& volume, std::uint32_t around) const {
+    std::uint32_t m = around;
+    while (m != kOutside && media_[m].part != volume.part) m = media_[m].around;
+    return m;
+}
+
+std::uint32_t ExactOptics::place_of(const Medium& volume, std::uint32_t around) const {
+    if (const std::uint32_t m = of_part(volume, around); m != kOutside) return m;
+    std::uint32_t m = around;
+    while (m != kOutside && media_[m].material != volume.material) m = media_[m].around;
+    return m;
+}
+
 std::uint32_t ExactOptics::without(const Medium& volume, std::uint32_t around) {
-    for (std::uint32_t m = around; m != kOutside; m = media_[m].around) {
-        if (media_[m].part == volume.part) return remove(m, around);
+    const std::uint32_t left = place_of(volume, around);
+    return left != kOutside ? remove(left, around) : around;
+}
+
+std::uint32_t ExactOptics::changed(const Medium& medium, std::uint32_t around) {
+    const std::uint32_t old = of_part(medium, around);
+    return old != kOutside ? replace(old, medium, around) : enter(medium, around);
+}
+
+/// `around` with `medium` in the place of `old`.
+std::uint32_t ExactOptics::replace(std::uint32_t old, const Medium& medium, std::uint32_t around) {
+    if (old != around) {
+        const Medium kept = media_[around];
+        return enter(kept, replace(old, medium, kept.around));
     }
-    for (std::uint32_t m = around; m != kOutside; m = media_[m].around) {
-        if (media_[m].material == volume.material) return remove(m, around);
-    }
-    return around;
+    Medium changed = medium;
+    changed.hidden = media_[old].hidden;
+    return enter(changed, media_[old].around);
 }
 
 /// `around` without `left`; volumes inside `left` are kept.

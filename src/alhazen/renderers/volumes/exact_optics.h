@@ -10,9 +10,9 @@
 /// parallel faces is correct, the position of the light behind them is not.
 /// Conventions: a medium is a number: 0 is outside all volumes, others identify a volume and the
 /// medium around it. Volumes may be left in any order: they are identified by the part that bounds
-/// them, else by its material. A solid that states both media of its surfaces is one volume. Faces
-/// that coincide (coincident_faces.h) are one boundary; kt that acts at surfaces acts at each. The
-/// eye is outside all volumes. Threads: used by one at a time.
+/// them, else by its material. A solid of several media is one volume, whose medium changes at its
+/// walls. Faces that coincide (coincident_faces.h) are one boundary; kt that acts at surfaces acts
+/// at each. The eye is outside all volumes. Threads: used by one at a time.
 
 #include <cstdint>
 #include <optional>
@@ -75,10 +75,9 @@ class ExactOptics final : public SurfaceOptics {
 
   private:
     struct Medium {
-        std::uint64_t part = 0;      ///< that bounds it
+        std::uint64_t part = 0;      ///< that bounds it (volume_number)
         std::uint32_t material = 0;  ///< of it
         std::uint32_t around = kOutside;
-        bool known = false;   ///< stated by a solid
         bool hidden = false;  ///< from shadow rays
         double index = 1;
         Rgb absorption;
@@ -87,21 +86,36 @@ class ExactOptics final : public SurfaceOptics {
     struct Sides {
         double here = 1, beyond = 1;  ///< indices
         std::uint32_t behind = kOutside;
-        bool joined = false;  ///< of several faces
+        bool joined = false;  ///< of several faces, or within another volume
         Rgb before{1, 1, 1};  ///< at a wall: tint of the medium that is left; of other faces
     };
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
-    /// The sides of several faces that are crossed at once.
-    [[nodiscard]] Sides sides_of_all(const Medium& own, bool entering, std::uint32_t around,
+    /// A face that a ray crosses.
+    struct Face {
+        Medium inside;  ///< of a wall behind it
+        bool entering = true, wall = false;
+        bool known = false;  ///< of a solid of several media
+        double index = 1;    ///< of the volume before the face, if that is left
+        Rgb tint{1, 1, 1};   ///< of the medium before a wall
+    };
+    [[nodiscard]] Face face_of(const Surface& surface, const MaterialSample& material,
+                               bool entering) const;
+    /// The sides of faces that are crossed at once.
+    [[nodiscard]] Sides sides_of_all(const Face& own, std::uint32_t around,
                                      const OtherFaces& others);
-    [[nodiscard]] Sides known_sides_of(const Surface& surface, std::uint32_t around);
     [[nodiscard]] Medium medium_of(const Surface& surface, const MaterialSample& sample) const;
     [[nodiscard]] Medium medium_of(const OtherFace& face) const;
     std::uint32_t enter(Medium medium, std::uint32_t around);
+    /// The volume of that part, else of that material, or of that part alone; kOutside: none.
+    [[nodiscard]] std::uint32_t place_of(const Medium& volume, std::uint32_t around) const;
+    [[nodiscard]] std::uint32_t of_part(const Medium& volume, std::uint32_t around) const;
     /// The medium after `volume` has been left.
     [[nodiscard]] std::uint32_t without(const Medium& volume, std::uint32_t around);
+    /// The medium after the volume of that part has got that medium; it is entered if it was not.
+    [[nodiscard]] std::uint32_t changed(const Medium& medium, std::uint32_t around);
+    std::uint32_t replace(std::uint32_t old, const Medium& medium, std::uint32_t around);
     std::uint32_t remove(std::uint32_t left, std::uint32_t around);
     /// True if a face of Whitted's materials has no inside.
     [[nodiscard]] bool is_open(bool physical, std::uint32_t part) const {

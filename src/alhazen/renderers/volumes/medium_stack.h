@@ -3,9 +3,8 @@
 ///
 /// Conventions: a volume is identified by the part that bounds it, so that overlapping volumes may
 /// be left in any order. Leaving a part that was not entered leaves the innermost volume of its
-/// material: a boundary may consist of several parts. A solid of several media states those on both
-/// sides of its surfaces; who leaves it leaves the stated media around it, too: another such solid
-/// that touches it ended there. Beyond kMost volumes around a point, the outermost are dropped.
+/// material: a boundary may consist of several parts. A solid of several media is one volume, whose
+/// medium changes at its walls. Beyond kMost volumes around a point, the outermost are dropped.
 
 #include <cstdint>
 
@@ -22,11 +21,10 @@ namespace alhazen {
 }
 
 struct Medium {
-    std::uint64_t part = 0;  ///< that bounds it
+    std::uint64_t part = 0;  ///< that bounds it (volume_number)
     double index = 1;
     Rgb absorption;  ///< per unit length: transmittance is exp(-absorption * length)
     std::uint32_t material = 0;
-    bool stated = false;  ///< by a solid of several media
 };
 
 class MediumStack {
@@ -53,14 +51,6 @@ class MediumStack {
     [[nodiscard]] const Medium* within(const Medium& volume) const {
         return place_of(volume) + 1 < media_.size() ? here() : nullptr;
     }
-    /// The innermost volume after the stated medium of the material is left; null: none.
-    [[nodiscard]] const Medium* without_stated(std::uint32_t material) const {
-        const std::size_t left = place_of_stated(material);
-        for (std::size_t i = media_.size(); i-- > 0;) {
-            if (i > left || !media_[i].value.stated) return &media_[i].value;
-        }
-        return nullptr;
-    }
     void enter(const Medium& medium) {
         if (media_.full()) remove(0);
         media_.push_back(medium);
@@ -79,36 +69,22 @@ class MediumStack {
     void leave(const Medium& volume) {
         if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
     }
-
-    /// Crosses a surface of a solid of several media: out of that of material `before` if not null,
-    /// into `after` if not null.
-    void cross_stated(const std::uint32_t* before, const Medium* after) {
-        if (before != nullptr) {
-            const std::size_t left = place_of_stated(*before);
-            if (left < media_.size()) {
-                remove(left);
-                for (std::size_t i = after != nullptr ? 0 : left; i-- > 0;) {
-                    if (media_[i].value.stated) remove(i);
-                }
-            }
-        }
-        if (after != nullptr) enter(*after);
+    /// The volume of the part has that medium from now on; it is entered if it was not.
+    void change(const Medium& medium) {
+        const std::size_t i = place_of_part(medium);
+        if (i == media_.size()) return enter(medium);
+        media_[i] = medium;
     }
 
   private:
-    [[nodiscard]] std::size_t place_of_stated(std::uint32_t material) const {
-        std::size_t any = media_.size();
-        for (std::size_t i = media_.size(); i-- > 0;) {
-            if (!media_[i].value.stated) continue;
-            if (media_[i].value.material == material) return i;
-            if (any == media_.size()) any = i;
-        }
-        return any;
-    }
-    [[nodiscard]] std::size_t place_of(const Medium& volume) const {
+    [[nodiscard]] std::size_t place_of_part(const Medium& volume) const {
         for (std::size_t i = media_.size(); i-- > 0;) {
             if (media_[i].value.part == volume.part) return i;
         }
+        return media_.size();
+    }
+    [[nodiscard]] std::size_t place_of(const Medium& volume) const {
+        if (const std::size_t i = place_of_part(volume); i < media_.size()) return i;
         for (std::size_t i = media_.size(); i-- > 0;) {
             if (media_[i].value.material == volume.material) return i;
         }

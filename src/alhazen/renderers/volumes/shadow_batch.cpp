@@ -7,6 +7,7 @@
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/volumes/exact_optics.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 
 namespace alhazen {
 
@@ -204,15 +205,6 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     return tint;
 }
 
-bool ShadowBatch::crossed_already(const Surface& surface) {
-    const std::uint64_t part = part_number({surface.part, surface.instance});
-    const auto same = std::find_if(together_.begin(), together_.end(),
-                                   [&](const OtherFace& face) { return face.inside.part == part; });
-    if (same == together_.end()) return false;
-    together_.erase(same);
-    return true;
-}
-
 Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     const std::size_t mark = optics_->mark();
     const double min_distance = scene_.conventions.shading.min_distance;
@@ -220,35 +212,33 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     std::uint32_t medium =
         scene_.has_masks ? optics_->seen_by_shadow_rays(path.medium) : path.medium;
     double last = 0.0, met = -min_distance;
-    bool in_wall = false;  // between the two crossings of a wall, which are one boundary
+    double together_to = 0.0;  // end of the faces that were crossed together
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
-        if (!in_wall && crossing.t - met < min_distance) {
-            // A face that was crossed with the last one is over, however near it is.
-            if (!together_.empty()) (void)crossed_already(crossed(ray, crossing, path.time));
-            continue;
-        }
+        if (crossing.t - met < min_distance) continue;
         met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
-        in_wall = surface.media.before && surface.media.after && !in_wall;
-        if (!in_wall && surface.media.before && surface.media.after) continue;
-        if (in_wall) medium_ = medium_at(scene_, surface, *surface.media.after);
-        const MaterialSample& material = in_wall ? medium_ : material_of(surface);
+        const std::uint64_t number = volume_number(surface);
+        if (crossing.t <= together_to &&
+            std::find(together_.begin(), together_.end(), number) != together_.end()) {
+            continue;
+        }
+        const bool wall = is_wall(surface);
+        if (wall) medium_ = medium_at(scene_, surface, *surface.media.after);
+        const MaterialSample& material = wall ? medium_ : material_of(surface);
         const bool entering = dot(ray.direction, surface.normal) < 0.0;
         // Light passes through the back of a single-sided surface.
         if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
-        if (crossed_already(surface)) continue;
-        const bool alone =
-            i + 1 == crossings_.size() ||
-            crossings_[i + 1].t - crossing.t > CoincidentSurfaces::reach(surface, ray.direction);
-        if (alone) {
-            together_.clear();
-        } else {
-            together_ = optics_->faces_at(ray, crossing, path.time);
-        }
-        auto [through, behind] =
-            optics_->cross(surface, material, ray.direction, medium, together_);
+        const double reach = CoincidentSurfaces::reach(surface, ray.direction);
+        const bool alone = i + 1 == crossings_.size() || crossings_[i + 1].t - crossing.t > reach;
+        others_.clear();
+        if (!alone) others_ = optics_->faces_at(ray, crossing, path.time);
+        together_.clear();
+        for (const OtherFace& other : others_) together_.push_back(other.inside.part);
+        if (wall) together_.push_back(number);  // Rays hit it twice.
+        together_to = crossing.t + 2.0 * reach;
+        auto [through, behind] = optics_->cross(surface, material, ray.direction, medium, others_);
         if (scene_.conventions.shading.shadow_tint == ShadowTint::Opaque) through = {};
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *

@@ -72,8 +72,6 @@ class ShadowBatch {
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
-    /// True once for each face in `together_`.
-    [[nodiscard]] bool crossed_already(const Surface& surface);
     /// The surface at a crossing. Valid until the next call.
     [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
     /// The material of a surface. Valid until the next call.
@@ -101,11 +99,12 @@ class ShadowBatch {
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
-    Surface surface_;         ///< result of `crossed`
-    MaterialSample own_;      ///< result of `material_of`
-    MaterialSample medium_;   ///< between the surfaces of a solid of several media
-    CrossedVolumes volumes_;  ///< around the shadow ray
-    OtherFaces together_;     ///< crossed with the last crossing
+    Surface surface_;                      ///< result of `crossed`
+    MaterialSample own_;                   ///< result of `material_of`
+    MaterialSample medium_;                ///< between the surfaces of a solid of several media
+    CrossedVolumes volumes_;               ///< around the shadow ray
+    OtherFaces others_;                    ///< faces that are crossed with a crossing
+    std::vector<std::uint64_t> together_;  ///< volumes whose faces the last crossing crossed
 };
 
 }  // namespace alhazen

@@ -17,8 +17,8 @@ namespace alhazen {
 }
 
 /// True if a surface of the material may bound a volume of the index of the air without any other
-/// effect: light passes it straight.
-[[nodiscard]] inline bool may_pass_straight(const Material& m, double air) {
+/// effect: light passes it straight (ScatterPoint::is_null_boundary).
+[[nodiscard]] inline bool may_be_null_boundary(const Material& m, double air) {
     if (!may_bound_volume(m) || (m.index.texture == kNoTexture && m.index.value != air)) {
         return false;
     }
@@ -29,11 +29,37 @@ namespace alhazen {
     return none(m.diffuse) && none(m.reflective);
 }
 
-/// The volume that a surface bounds.
+/// The identity of the volume that a surface bounds: its part, or a solid of several media.
+[[nodiscard]] inline std::uint64_t volume_number(const Surface& surface) {
+    const SurfaceMedia& media = surface.media;
+    return media.known ? media.solid : part_number({surface.part, surface.instance});
+}
+
+/// True if a path that crosses the surface enters the volume that it bounds.
+[[nodiscard]] inline bool enters_volume(const ShadingPoint& point) {
+    const SurfaceMedia& media = point.surface.media;
+    return media.known ? media.after && !media.before : point.entering;
+}
+
+/// True at a wall between two media of one solid.
+[[nodiscard]] inline bool is_wall(const Surface& surface) {
+    return surface.media.before && surface.media.after;
+}
+
+/// The volume that a surface bounds; of a solid of several media with the medium behind the
+/// surface or, where the solid ends, before it.
 [[nodiscard]] inline Medium volume_of(const Scene& scene, const ShadingPoint& point) {
     const Surface& surface = point.surface;
-    Medium volume{part_number({surface.part, surface.instance}), point.material->index,
-                  point.material->absorption, static_cast<std::uint32_t>(volume_material(surface))};
+    const std::uint64_t number = volume_number(surface);
+    if (surface.media.known) {
+        const std::optional<MaterialId>& id =
+            surface.media.after ? surface.media.after : surface.media.before;
+        if (!id) return {.part = number, .material = 0xFFFFFFFFu};
+        const MaterialSample medium = medium_at(scene, surface, *id);
+        return {number, medium.index, medium.absorption, static_cast<std::uint32_t>(*id)};
+    }
+    Medium volume{number, point.material->index, point.material->absorption,
+                  static_cast<std::uint32_t>(volume_material(surface))};
     if (surface.volume) {
         volume.absorption = medium_at(scene, surface, *surface.volume).absorption;
     }

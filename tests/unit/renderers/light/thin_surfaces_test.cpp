@@ -157,5 +157,29 @@ TEST(ThinSheets, LightsAreSeenThroughSheetsThatShine) {
     }
 }
 
+/// Sheets that let nearly all light pass straight: a part of the paths that do not pass would have
+/// all their emission.
+TEST(ThinSheets, ThatShineAreSeenHoweverClear) {
+    Material clear = sheet(1, {0.3, 0.3, 0.3}), dim = clear, coated = clear;
+    clear.index.value = dim.index.value = coated.index.value = 1;
+    clear.metallic_roughness->specular.value = 1;
+    dim.index.value = 1.5;
+    dim.metallic_roughness->specular.value = 0.01;
+    coated.metallic_roughness->coat.strength.value = 0.01;
+    for (const Material& material : {clear, dim, coated}) {
+        SceneMaker maker = floor_from_above(0.2);
+        maker.description().cameras[0].camera =
+            OrthographicCamera{{-0.2, 0, 2}, normalize(Vec3{0.2, 0, -1}), {0.1, 0, 0}, {0, 0.1, 0}};
+        maker.add(wide(1.0), maker.material(material));
+        const Scene scene = maker.compile();
+        const double seen = mean_of(picture_of(scene, "path_tracing", 4, 1024)).g;
+        EXPECT_GT(seen, 0.4);
+        for (const std::string renderer : {"bidirectional", "vcm:photons=500,pilot=off"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 1024)).g, seen, 0.02)
+                << renderer << " " << &material - &clear;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -65,6 +65,28 @@ TEST(CoincidentOptics, TouchingLayersInAnyOrderPassWhatTheIndicesSay) {
     } while (std::next_permutation(order.begin(), order.end()));
 }
 
+/// Each layer is a solid of two materials side by side.
+TEST(CoincidentOptics, TouchingSolidsOfSeveralMediaInAnyOrderPassWhatTheIndicesSay) {
+    const std::vector<Layer> layers{{1.5, 0.1, 1.0}, {1.7, 0.2, 0.7}, {1.33, 0.05, 1.9}};
+    const std::vector<Layer> all{{1}, layers[0], layers[1], layers[2], {1}};
+    std::vector<std::size_t> order{0, 1, 2};
+    do {
+        SceneMaker maker = above_a_light();
+        for (const std::size_t i : order) {
+            const ObjectIndex solid = maker.object("solid");
+            maker.description().objects.back().combine = Combine::Union;
+            double top = 1.0;
+            for (std::size_t k = 0; k < i; ++k) top -= layers[k].thickness;
+            for (const double x : {-3.0, 0.0}) {
+                maker.add(BoxShape{{x, -3, top - layers[i].thickness}, {x + 3, 3, top}},
+                          maker.material(physical(layers[i])), {}, solid);
+            }
+            maker.add(solid);
+        }
+        expect_passed(maker, all);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
 TEST(CoincidentOptics, HalvesOfABlockAreABlock) {
     for (const double index : {1.0, 1.5}) {
         const Layer half{index, 0.3, 1.0};

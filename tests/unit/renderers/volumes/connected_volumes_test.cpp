@@ -316,6 +316,23 @@ TEST(ConnectedVolumes, ASolidOfSeveralMediaLeavesTheVolumeAroundItAsItWas) {
     }
 }
 
+/// A block across the wall between the two media of a solid, which both lie around it.
+TEST(ConnectedVolumes, AWallOfASolidWithinAnotherVolumeChangesNothingYet) {
+    SceneMaker maker;
+    const ObjectIndex solid = maker.object("solid");
+    maker.description().objects.back().combine = Combine::Union;
+    maker.add(BoxShape{{2, -8, -8}, {4, 8, 8}}, maker.material(absorbing(kFog)), {}, solid);
+    maker.add(BoxShape{{4, -8, -8}, {7, 8, 8}}, maker.material(absorbing(kDenser)), {}, solid);
+    maker.add(solid);
+    maker.add(BoxShape{{3, -7, -7}, {5, 7, 7}}, maker.material(absorbing(kAbsorbs)));
+    const Passed through = pass(maker.compile(), {-3, 0.1, 0.2}, {13, 0.1, 0.2});
+    EXPECT_TRUE(through.same);
+    for (int i = 0; i < 3; ++i) {
+        const double lost = kFog[i] + 2 * kAbsorbs[i] + 2 * kDenser[i];
+        EXPECT_NEAR(through.share[i], std::exp(-lost), 1e-12) << i;
+    }
+}
+
 TEST(ConnectedVolumes, SheetsAndCutOutsInVolumesLetLightThrough) {
     SceneMaker maker = nested();
     Material sheet = smooth_glass(), half = matt({1, 1, 1});
