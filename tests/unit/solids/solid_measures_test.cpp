@@ -344,6 +344,32 @@ TEST(SolidMeasures, PartsFarApartAreAllMet) {
     EXPECT_NEAR(m.area.value, 4 * pi * (1 + 2 + 1), 2 * m.area.half_width);
 }
 
+/// A corner of a box, far smaller than the rectangle around the box's shadow.
+constexpr const char* kCorner =
+    "intersection { box { lo=(-1,-1,-1); hi=(1,1,1) } half_space { point=(0.7,1,1); "
+    "normal=(-1,-0.8,-1.4) } transform=rotate((1,2,3), 33) }";
+constexpr double kVolumeOfCorner = 0.3 * (0.3 / 0.8) * (0.3 / 1.4) / 6;
+
+TEST(SolidMeasures, WhatReachesFromOneCellIntoTheNextIsInTheInterval) {
+    const OneSolid corner(kCorner);
+    const Box3 box = corner.solid.box();
+    for (const BundleFrame& frame : {BundleFrame{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                     BundleFrame{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}) {
+        constexpr int kRuns = 200;
+        int held = 0;
+        for (unsigned run = 0; run < kRuns; ++run) {
+            StratifiedChords bundle(corner.solid, frame, box.center(), 1000 + run);
+            bundle.grow_to(512);
+            bundle.grow_to(4096);
+            const Estimate e = bundle.estimate();
+            held += e.holds(kVolumeOfCorner);
+            EXPECT_NEAR(e.value, kVolumeOfCorner, 4 * e.half_width) << run;
+        }
+        EXPECT_GE(held, 0.90 * kRuns);
+        EXPECT_LE(held, 0.99 * kRuns);
+    }
+}
+
 TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
     // A thread along the diagonal of its box.
     const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
