@@ -349,6 +349,9 @@ constexpr const char* kCorner =
     "intersection { box { lo=(-1,-1,-1); hi=(1,1,1) } half_space { point=(0.7,1,1); "
     "normal=(-1,-0.8,-1.4) } transform=rotate((1,2,3), 33) }";
 constexpr double kVolumeOfCorner = 0.3 * (0.3 / 0.8) * (0.3 / 1.4) / 6;
+/// A cap of a hyperboloid, a thirtieth as thick as its box.
+constexpr const char* kSlice =
+    "quadric { squares=(-1.7,1.4,1); constant=1.25; clip_box=((-0.4,-0.6,-0.4), (0.9,0.8,0.8)) }";
 
 TEST(SolidMeasures, WhatReachesFromOneCellIntoTheNextIsInTheInterval) {
     const OneSolid corner(kCorner);
@@ -368,6 +371,23 @@ TEST(SolidMeasures, WhatReachesFromOneCellIntoTheNextIsInTheInterval) {
         EXPECT_GE(held, 0.90 * kRuns);
         EXPECT_LE(held, 0.99 * kRuns);
     }
+}
+
+TEST(SolidMeasures, DirectionsInWhichASolidIsSeenByFewLinesAgree) {
+    // The integral of pi (1.7 x^2 - 1.25) / sqrt(1.4), from where it is 0 to x = 0.9.
+    const auto from_zero = [](double x) { return 1.7 * x * x * x / 3 - 1.25 * x; };
+    const double volume =
+        std::numbers::pi / std::sqrt(1.4) * (from_zero(0.9) - from_zero(std::sqrt(1.25 / 1.7)));
+    const OneSolid slice(kSlice);
+    int held = 0;
+    for (unsigned run = 0; run < 200; ++run) {
+        const SolidMeasures m =
+            measure(slice.solid,
+                    {.relative_error = 1e-3, .seconds = 20, .area = false, .seed = 5000 + run});
+        EXPECT_TRUE(m.directions_agree) << run;
+        held += m.volume.holds(volume);
+    }
+    EXPECT_GE(held, 180);
 }
 
 TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
