@@ -246,13 +246,17 @@ std::vector<Pair> nearest_pairs(const std::vector<SurfacePoint>& on_a,
 }  // namespace
 
 Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b, std::uint64_t seed) {
+    if (a.box().empty() || b.box().empty()) {
+        throw Error(ErrorKind::Usage, "a solid is empty: there is no clearance");
+    }
     if (!a.box().bounded() || !b.box().bounded()) {
         throw Error(ErrorKind::Usage, "a solid is not bounded: clearance requires bounded solids");
     }
     const auto on_a = surface_points(a, mix64(seed));
     const auto on_b = surface_points(b, mix64(seed + 1));
     if (on_a.empty() || on_b.empty()) {
-        throw Error(ErrorKind::Usage, "a solid is too thin to be met by any line");
+        throw Error(ErrorKind::Usage,
+                    "no line met a solid: it is empty or too thin for a clearance");
     }
     LineGap gap(a, b);
     Pair best;

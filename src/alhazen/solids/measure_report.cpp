@@ -43,7 +43,7 @@ json densities_json(const std::vector<std::optional<double>>& densities) {
 json solid_json(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
     json out{{"solid", static_cast<std::uint64_t>(r.solid)}, {"name", r.name}};
-    out["box"] = {to_json(m.box.lo), to_json(m.box.hi)};
+    out["box"] = m.box.empty() ? json(nullptr) : json{to_json(m.box.lo), to_json(m.box.hi)};
     out["volume"] = to_json(m.volume);
     out["area"] = to_json(m.area);
     out["area_by_crofton"] = to_json(m.area_by_crofton);
@@ -136,8 +136,10 @@ std::string solid_text(const SolidReport& r) {
     const auto line = [&](const char* what, const std::string& value) {
         out += fmt::format("  {:<10}{}\n", what, value);
     };
-    line("box", fmt::format("({:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g})", m.box.lo.x,
-                            m.box.lo.y, m.box.lo.z, m.box.hi.x, m.box.hi.y, m.box.hi.z));
+    line("box", m.box.empty() ? "none: the solid is empty"
+                              : fmt::format("({:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g})",
+                                            m.box.lo.x, m.box.lo.y, m.box.lo.z, m.box.hi.x,
+                                            m.box.hi.y, m.box.hi.z));
     line("volume", text_of(m.volume));
     line("area", text_of(m.area));
     line("", text_of(m.area_by_crofton) + " by Crofton's count");

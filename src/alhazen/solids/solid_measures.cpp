@@ -40,6 +40,10 @@ constexpr double kShareOfVolume = 0.875;
 constexpr double kShareOfWanted = 0.5;
 /// Largest allowed difference, as a multiple of both intervals.
 constexpr double kAgreement = 2.5;
+/// A direction whose volume differs is measured again with intervals narrower by this factor, so
+/// many times: where chance has made the difference, it vanishes.
+constexpr double kNarrower = 4;
+constexpr int kRepeats = 2;
 
 constexpr StratifiedChords::Measured kArea = StratifiedChords::Measured::Area;
 
@@ -88,6 +92,7 @@ class Measurer {
         slack_ = kRounding * solid_.magnitude();
         choose_frame();
         grow();
+        repeat_what_differs();
         fill(found);
         return found;
     }
@@ -202,6 +207,15 @@ class Measurer {
         grow_volume(deadline_);
         reached_ = excess(volume(), options_.relative_error) <= 1 &&
                    (!options_.area || excess(area(), options_.relative_error) <= 1);
+    }
+
+    /// Measures the directions again whose volumes differ, as far as time allows.
+    void repeat_what_differs() {
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (int i = 0; i < kRepeats && !agree(volume(), volume_along(k)); ++i) {
+                if (!enlarge(bundles_[k], kNarrower, deadline_)) break;
+            }
+        }
     }
 
     [[nodiscard]] std::size_t widest_area() const {

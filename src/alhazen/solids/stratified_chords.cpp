@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/interruption.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::size_t kCellsPerTask = 256;
 /// Share of cells that are cut for their size alone, whatever the survey saw, so that features too
-/// small to be seen at once are found later.
+/// small to be seen at once are found later; at least.
 constexpr double kCutForSize = 0.15;
 /// The same share if hardly any line misses: the survey did not see the empty corners.
 constexpr double kCutForSizeIfFull = 0.75;
@@ -36,6 +37,10 @@ constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
 constexpr float kRimShare = 1.0f / 32;
 /// Weight of that guess if the quarter itself was surveyed: seven lines may miss a feature.
 constexpr float kWeightOfGuess = 0.1f;
+/// Bits of a Morton number: pairs of the bits of x and y, the bit of the first halving foremost.
+constexpr std::uint64_t kAlongX = 0xaaaaaaaaaaaaaaaa, kAlongY = 0x5555555555555555;
+/// Cells of more halvings have the number of one that contains them.
+constexpr unsigned kMostHalvings = 32;
 
 /// Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
 /// cases.
@@ -44,6 +49,14 @@ constexpr double kRuleOfThree = 3.0;
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
+}
+
+/// The Morton number one step along an axis away from the parent; none outside of the patch.
+std::optional<std::uint64_t> step(std::uint64_t place, std::uint64_t axis, std::uint64_t size) {
+    const bool forward = (place & size) != 0;
+    const std::uint64_t moved = (forward ? (place | ~axis) + size : (place & axis) - size) & axis;
+    const bool is_outside = forward ? moved == 0 : (place & axis) == 0;
+    return is_outside ? std::nullopt : std::optional(moved | (place & ~axis));
 }
 
 /// Adds the span a < t < b of the line o + t d, |d| = 1, with a weight.
@@ -168,16 +181,20 @@ std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
 
 /// Makes about a fourth of this many cells, and at least one for every patch.
 void StratifiedChords::make_grid(std::size_t cells) {
-    for (const Patch& patch : patches_) {
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+        const Patch& patch = patches_[p];
         const double wanted = static_cast<double>(cells) * patch.area() / covered_;
-        std::size_t side = 1;
-        while (static_cast<double>(16 * side * side) <= wanted) side *= 2;
-        const float width = patch.width / static_cast<float>(side);
-        const float height = patch.height / static_cast<float>(side);
-        for (std::size_t i = 0; i < side * side; ++i) {
-            cells_.push_back({patch.x + double(i % side) * width,
-                              patch.y + double(i / side) * height, width, height});
+        std::vector<Cell> grid{{patch.x, patch.y, patch.width, patch.height}};
+        grid.front().patch = static_cast<std::uint8_t>(p);
+        while (static_cast<double>(16 * grid.size()) <= wanted) {
+            std::vector<Cell> finer;
+            for (const Cell& c : grid) {
+                for (const Cell& quarter : c.quarters()) finer.push_back(quarter);
+            }
+            grid = std::move(finer);
         }
+        for (Cell& c : grid) c.quarter = false;
+        cells_.insert(cells_.end(), grid.begin(), grid.end());
     }
 }
 
@@ -189,36 +206,54 @@ std::array<StratifiedChords::Cell, 4> StratifiedChords::Cell::quarters() const {
     for (float& second : part.curvature) second *= 0.25f;
     part.quarter = true;
     part.surveyed = false;
+    ++part.level;
     std::array<Cell, 4> all{part, part, part, part};
     all[1].y += part.height;
     all[2].x += part.width;
     all[3].x += part.width;
     all[3].y += part.height;
+    if (part.level <= kMostHalvings) {
+        for (std::uint64_t k = 1; k < 4; ++k) all[k].place += k << (64 - 2 * part.level);
+    }
     return all;
 }
 
-/// Cuts the cells of largest variance, and some of the largest, into four each.
+/// Cuts the cells of largest variance, and some of the largest, into four each. Cells that touch
+/// differ by one halving at most.
 void StratifiedChords::cut(std::size_t cells) {
+    if (cells <= cells_.size()) return;
     const std::size_t wanted = std::min(cells_.size(), (cells - cells_.size() + 2) / 3);
     std::vector<std::uint32_t> order(cells_.size());
     std::iota(order.begin(), order.end(), 0u);
     const double share = missed_ < kEnoughMisses ? kCutForSizeIfFull : kCutForSize;
     const auto for_size = static_cast<std::size_t>(share * static_cast<double>(wanted));
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted - for_size);
-    const auto last = order.begin() + static_cast<std::ptrdiff_t>(wanted);
     const auto by = [&](auto&& size) {
         return [&, size](std::uint32_t a, std::uint32_t b) {
             const double of_a = size(cells_[a]), of_b = size(cells_[b]);
             return of_a != of_b ? of_a > of_b : a < b;
         };
     };
-    std::nth_element(order.begin(), first, order.end(),
-                     by([](const Cell& c) { return c.scatter; }));
-    std::nth_element(first, last, order.end(), by([](const Cell& c) { return c.area(); }));
     std::vector<bool> is_cut(cells_.size());
-    for (auto i = order.begin(); i != last; ++i) is_cut[*i] = true;
+    std::size_t count = 0;
+    const auto by_scatter = by([](const Cell& c) { return c.scatter; });
+    std::nth_element(order.begin(), first, order.end(), by_scatter);
+    std::sort(order.begin(), first, by_scatter);
+    for (auto i = order.begin(); i != first && count < wanted - for_size; ++i) {
+        if (!(cells_[*i].scatter > 0)) break;
+        if (!is_cut[*i]) count += mark(*i, is_cut);
+    }
+    if (count < wanted) {
+        const auto rest =
+            std::partition(order.begin(), order.end(), [&](std::uint32_t i) { return is_cut[i]; });
+        const auto last = rest + static_cast<std::ptrdiff_t>(wanted - count);
+        std::nth_element(rest, last, order.end(), by([](const Cell& c) { return c.area(); }));
+        for (auto i = rest; i != last; ++i) {
+            if (!is_cut[*i]) count += mark(*i, is_cut);
+        }
+    }
     std::vector<Cell> finer;
-    finer.reserve(cells_.size() + 3 * wanted);
+    finer.reserve(cells_.size() + 3 * count);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const Cell& c = cells_[i];
         if (!is_cut[i]) {
@@ -228,6 +263,37 @@ void StratifiedChords::cut(std::size_t cells) {
         for (const Cell& quarter : c.quarters()) finer.push_back(quarter);
     }
     cells_ = std::move(finer);
+}
+
+std::size_t StratifiedChords::mark(std::size_t cell, std::vector<bool>& is_cut) const {
+    std::size_t count = 0;
+    std::vector<std::size_t> open{cell};
+    is_cut[cell] = true;
+    while (!open.empty()) {
+        const Cell& c = cells_[open.back()];
+        open.pop_back();
+        ++count;
+        if (c.level == 0 || c.level > kMostHalvings) continue;
+        // A larger cell that touches it does so across the sides that it shares with its parent.
+        const std::uint64_t up = std::uint64_t{1} << (64 - 2 * c.level), right = 2 * up;
+        const auto beside = step(c.place, kAlongX, right), above = step(c.place, kAlongY, up);
+        for (const auto& place :
+             {beside, above, beside ? step(*beside, kAlongY, up) : std::nullopt}) {
+            if (!place) continue;
+            const std::size_t other = cell_at(c.patch, *place);
+            if (cells_[other].level >= c.level || is_cut[other]) continue;
+            is_cut[other] = true;
+            open.push_back(other);
+        }
+    }
+    return count;
+}
+
+std::size_t StratifiedChords::cell_at(std::uint8_t patch, std::uint64_t place) const {
+    const auto after = std::partition_point(cells_.begin(), cells_.end(), [&](const Cell& c) {
+        return c.patch != patch ? c.patch < patch : c.place <= place;
+    });
+    return static_cast<std::size_t>(after - cells_.begin()) - 1;
 }
 
 /// Sums of f(cell, its number, scratch, sums), in an order independent of the number of threads.

@@ -46,8 +46,10 @@ struct BundleFrame {
 /// sample takes one pair of each cell, twice.
 ///
 /// A survey chooses the cells to cut: seven lines per cell that are not part of the estimate. They
-/// reach beyond the cell on all sides, so that a rim that touches only a corner is seen. They also
-/// give the curvature of the measured quantity: a model that is subtracted from the lines of the
+/// reach beyond the cell on all sides, so that a rim that touches only a corner is seen. Cells that
+/// touch differ by a factor of two in their sides at most: where the lines of a cell did not see
+/// what reaches into it from a neighbour, that is of the size of a cell there. The lines also give
+/// the curvature of the measured quantity: a model that is subtracted from the lines of the
 /// cell and added as its integral.
 class StratifiedChords {
   public:
@@ -103,6 +105,9 @@ class StratifiedChords {
         float trust = 0;       ///< share of the curvature in the model; 0: no model
         bool quarter = false;  ///< quarter of a surveyed cell
         bool surveyed = false;
+        std::uint8_t level = 0;   ///< halvings of its patch
+        std::uint8_t patch = 0;   ///< index of its patch
+        std::uint64_t place = 0;  ///< Morton number of its lower corner in the patch; x before y
 
         [[nodiscard]] double area() const { return double{width} * height; }
         [[nodiscard]] std::array<Cell, 4> quarters() const;
@@ -131,6 +136,10 @@ class StratifiedChords {
     void survey();
     void survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found, Sums& sums) const;
     void cut(std::size_t cells);
+    /// Marks a cell to be cut, and all others that must be for it; returns their number.
+    std::size_t mark(std::size_t cell, std::vector<bool>& is_cut) const;
+    /// The cell that contains the place.
+    [[nodiscard]] std::size_t cell_at(std::uint8_t patch, std::uint64_t place) const;
     void cast();
     void cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
     void cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/base/error.h"
 #include "alhazen/solids/solid_list.h"
 #include "support/scene_maker.h"
 
@@ -51,6 +52,27 @@ TEST(Clearance, SolidsThatShareVolumeOverlap) {
     EXPECT_TRUE(found.overlap);
     EXPECT_EQ(found.at_most, 0);
     EXPECT_TRUE(between(Sphere{{0, 0, 0}, 5}, BoxShape{{-1, -1, -1}, {1, 1, 1}}).overlap);
+}
+
+TEST(Clearance, AnEmptySolidHasNone) {
+    SceneMaker maker;
+    const ObjectIndex nothing = maker.object("nothing");
+    maker.description().objects.back().combine = Combine::Intersection;
+    maker.add(Sphere{}, MaterialId{0}, {}, nothing);
+    maker.add(Sphere{{5, 0, 0}, 1}, MaterialId{0}, {}, nothing);
+    maker.add(nothing);
+    maker.add(Sphere{{9, 0, 0}, 1});
+    const SolidList solids(maker.compile().aggregate);
+    ASSERT_EQ(solids.count(), 2u);
+    const IsolatedSolid a(solids, SolidId{0}), b(solids, SolidId{1});
+    for (const bool first : {true, false}) {
+        try {
+            (void)(first ? clearance(a, b) : clearance(b, a));
+            ADD_FAILURE();
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("empty"), std::string::npos) << error.what();
+        }
+    }
 }
 
 TEST(Clearance, APinInAFrameHasAnUpperBoundOnly) {

@@ -111,6 +111,20 @@ TEST(MeasureCoverage, OfANapkinRing) {
         "napkin ring", Interval95::Scatter, Interval95::Scatter);
 }
 
+TEST(MeasureCoverage, OfACornerCutFromABox) {
+    SceneMaker maker;
+    const ObjectIndex corner = maker.object("corner");
+    maker.description().objects.back().combine = Combine::Intersection;
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, MaterialId{0}, {}, corner);
+    maker.add(HalfSpace{{0.7, 1, 1}, {-1, -0.8, -1.4}}, MaterialId{0}, {}, corner);
+    maker.add(corner, MaterialId{0}, Affine::rotate({1, 2, 3}, 0.58));
+    const SolidList solids(maker.compile().aggregate);
+    expect_honest(
+        coverage_of(IsolatedSolid(solids, SolidId{0}), 0.3 * (0.3 / 0.8) * (0.3 / 1.4) / 6, 0, 0)
+            .volume,
+        "corner volume");
+}
+
 TEST(MeasureCoverage, OfTheBicylinder) {
     SceneMaker maker;
     maker.add(Cylinder{{-2, 0, 0}, {2, 0, 0}, 1});

@@ -15,6 +15,10 @@ TEST(MeasureReport, WhatIsNotKnownIsNull) {
     EXPECT_TRUE(nothing["centroid"].is_null());
     EXPECT_TRUE(nothing["inertia_xx_yy_zz_xy_yz_zx"].is_null());
     EXPECT_NE(measure_text(report).find("centroid  none"), std::string::npos);
+    EXPECT_TRUE(nothing["box"].is_null());
+    EXPECT_NE(measure_text(report).find("box       none"), std::string::npos);
+    report.solids[0].measures.box = {{1, 2, 3}, {4, 5, 6}};
+    EXPECT_EQ(measure_json(report)["solids"][0]["box"][1][2], 6);
     report.solids[0].measures.has_moments = true;
     EXPECT_EQ(measure_json(report)["solids"][0]["centroid"].size(), 3u);
 }

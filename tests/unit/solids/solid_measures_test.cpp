@@ -344,6 +344,52 @@ TEST(SolidMeasures, PartsFarApartAreAllMet) {
     EXPECT_NEAR(m.area.value, 4 * pi * (1 + 2 + 1), 2 * m.area.half_width);
 }
 
+/// A corner of a box, far smaller than the rectangle around the box's shadow.
+constexpr const char* kCorner =
+    "intersection { box { lo=(-1,-1,-1); hi=(1,1,1) } half_space { point=(0.7,1,1); "
+    "normal=(-1,-0.8,-1.4) } transform=rotate((1,2,3), 33) }";
+constexpr double kVolumeOfCorner = 0.3 * (0.3 / 0.8) * (0.3 / 1.4) / 6;
+/// A cap of a hyperboloid, a thirtieth as thick as its box.
+constexpr const char* kSlice =
+    "quadric { squares=(-1.7,1.4,1); constant=1.25; clip_box=((-0.4,-0.6,-0.4), (0.9,0.8,0.8)) }";
+
+TEST(SolidMeasures, WhatReachesFromOneCellIntoTheNextIsInTheInterval) {
+    const OneSolid corner(kCorner);
+    const Box3 box = corner.solid.box();
+    for (const BundleFrame& frame : {BundleFrame{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                     BundleFrame{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}) {
+        constexpr int kRuns = 200;
+        int held = 0;
+        for (unsigned run = 0; run < kRuns; ++run) {
+            StratifiedChords bundle(corner.solid, frame, box.center(), 1000 + run);
+            bundle.grow_to(512);
+            bundle.grow_to(4096);
+            const Estimate e = bundle.estimate();
+            held += e.holds(kVolumeOfCorner);
+            EXPECT_NEAR(e.value, kVolumeOfCorner, 4 * e.half_width) << run;
+        }
+        EXPECT_GE(held, 0.90 * kRuns);
+        EXPECT_LE(held, 0.99 * kRuns);
+    }
+}
+
+TEST(SolidMeasures, DirectionsInWhichASolidIsSeenByFewLinesAgree) {
+    // The integral of pi (1.7 x^2 - 1.25) / sqrt(1.4), from where it is 0 to x = 0.9.
+    const auto from_zero = [](double x) { return 1.7 * x * x * x / 3 - 1.25 * x; };
+    const double volume =
+        std::numbers::pi / std::sqrt(1.4) * (from_zero(0.9) - from_zero(std::sqrt(1.25 / 1.7)));
+    const OneSolid slice(kSlice);
+    int held = 0;
+    for (unsigned run = 0; run < 200; ++run) {
+        const SolidMeasures m =
+            measure(slice.solid,
+                    {.relative_error = 1e-3, .seconds = 20, .area = false, .seed = 5000 + run});
+        EXPECT_TRUE(m.directions_agree) << run;
+        held += m.volume.holds(volume);
+    }
+    EXPECT_GE(held, 180);
+}
+
 TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
     // A thread along the diagonal of its box.
     const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
