@@ -169,6 +169,44 @@ TEST(PhotonWalk, PhotonsBeyondTheRangeOfFloatAreNotKept) {
     }
 }
 
+/// Photons in a closed ball by a light of the default attenuation, all lengths times `unit`.
+std::vector<Photon> photons_in_units(double unit, double range, bool spot, PhotonKinds kinds) {
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 3 * unit), maker.material(matt({0.5, 0.25, 0})));
+    PointLight point{.position = {unit, 0, 0}, .color = {3, 2, 1}};
+    point.range = range * unit;
+    SpotLight cone;
+    cone.position = point.position;
+    cone.direction = {-1, 0, 0};
+    cone.color = point.color;
+    cone.range = point.range;
+    if (spot) {
+        maker.light(cone);
+    } else {
+        maker.light(point);
+    }
+    return shot_of(maker.compile(), {4000, kinds, 64, 5}).photons;
+}
+
+TEST(PhotonWalk, LightThatDoesNotFallOffIsTheSameInEveryUnitOfLength) {
+    for (const double range : {kInfinity, 4.5}) {
+        for (const bool spot : {false, true}) {
+            const std::vector<Photon> one = photons_in_units(1, range, spot, kAll);
+            const double power = power_of(one).r;
+            // At each surface half of the red light is reflected.
+            const double direct =
+                power_of(photons_in_units(1, range, spot, {PhotonKind::Direct})).r;
+            EXPECT_NEAR(power, 2.0 * direct, 0.03 * power) << range << " " << spot;
+            for (const double unit : {0x1p-20, 0x1p-10, 0x1p10, 0x1p20}) {
+                const std::vector<Photon> other = photons_in_units(unit, range, spot, kAll);
+                EXPECT_EQ(other.size(), one.size()) << unit << " " << range << " " << spot;
+                EXPECT_NEAR(power_of(other).r / (unit * unit), power, 1e-6 * power)
+                    << unit << " " << range << " " << spot;
+            }
+        }
+    }
+}
+
 TEST(PhotonWalk, ALampOfEachKindSendsItsPower) {
     struct Case {
         const char* name;

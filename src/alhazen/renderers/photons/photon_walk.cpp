@@ -84,9 +84,10 @@ void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const
                       OctahedralVector(-at.along), OctahedralVector::none()});
 }
 
-bool PhotonWalk::survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,
+bool PhotonWalk::survives_roulette(PathEnd& path, const Spectrum& begun, const PathNumbers& numbers,
                                    std::uint64_t dimension) const {
-    const double share = path.throughput.max() / begun;
+    if (path.throughput.is_black()) return false;
+    const double share = path.throughput.max() / begun.max();
     if (!(share < 1.0)) return path.throughput.is_finite();
     if (!(numbers.at(dimension) < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
@@ -119,7 +120,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     path.media = start.media;
     FirstSegment first_segment = FirstSegment::Any;
     if (start.of_either) first_segment = choose_first(path, numbers);
-    const double begun = path.throughput.max();
+    Spectrum begun = path.throughput;
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
@@ -136,6 +137,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             if (caustics_only_) return true;
             kind = PhotonKind::Indirect;
             path.throughput = fall * path.throughput;
+            begun = fall * begun;
             scattered = true;
             fall = Spectrum::all(1);
             next_.go_on_in_volume(path, {numbers.at(first + 1), numbers.at(first + 2)});
@@ -180,7 +182,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             } else if (kind == PhotonKind::Direct) {
                 kind = PhotonKind::Caustic;
             }
-            if (!scattered) path.throughput = fall * path.throughput;
+            path.throughput = fall * path.throughput;
+            begun = fall * begun;
             scattered = true;
             fall = Spectrum::all(1);
         }

@@ -58,8 +58,8 @@ class PhotonWalk {
                std::vector<Photon>& stored) const;
     void store_in_volume(PhotonKind kind, const Spectrum& fluence, const Wavelengths& waves,
                          std::vector<Photon>& stored) const;
-    [[nodiscard]] bool survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,
-                                         std::uint64_t dimension) const;
+    [[nodiscard]] bool survives_roulette(PathEnd& path, const Spectrum& begun,
+                                         const PathNumbers& numbers, std::uint64_t dimension) const;
 
     const Scene& scene_;
     const Illumination& lights_;
