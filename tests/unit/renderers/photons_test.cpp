@@ -41,9 +41,8 @@ std::vector<Photon> random_photons(std::size_t count, bool lattice, std::uint64_
     RandomStream random(seed);
     std::vector<Photon> photons(count);
     for (std::size_t i = 0; i < count; ++i) {
-        for (float& x : photons[i].position) {
-            x = lattice ? static_cast<float>(random.below(5))
-                        : static_cast<float>(random.uniform(-1, 1));
+        for (double& x : photons[i].position) {
+            x = lattice ? static_cast<double>(random.below(5)) : random.uniform(-1, 1);
         }
         photons[i].power[0] = static_cast<float>(i);
     }
@@ -156,7 +155,7 @@ TEST(PhotonWalk, AllPowerThatLeavesALightArrives) {
     EXPECT_NEAR(most, least, 1e-5 * most);
 }
 
-TEST(PhotonWalk, PhotonsBeyondTheRangeOfFloatAreNotKept) {
+TEST(PhotonWalk, PhotonsBeyondTheRangeOfFloatAreKept) {
     for (const double radius : {1e38, 1e39, 1e60}) {
         SceneMaker maker;
         maker.add(ball({0, 0, 0}, radius), maker.material(matt({0.5, 0.5, 0.5})));
@@ -164,7 +163,7 @@ TEST(PhotonWalk, PhotonsBeyondTheRangeOfFloatAreNotKept) {
             .position = {0.1 * radius, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
         const Scene scene = maker.compile();
         const ShotPhotons shot = shot_of(scene, {1000, {PhotonKind::Direct}, 64, 5});
-        EXPECT_EQ(shot.photons.size(), radius < 3e38 ? 1000u : 0u) << radius;
+        EXPECT_EQ(shot.photons.size(), 1000u) << radius;
         EXPECT_LT(usual_radius(PhotonTree(shot.photons), 10), kInfinity);
     }
 }
