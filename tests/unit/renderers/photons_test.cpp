@@ -118,6 +118,48 @@ TEST(PhotonTree, FindsTheNearestOfBruteForce) {
     }
 }
 
+TEST(PhotonTree, ASearchVisitsFewOfManyCoincidentPhotons) {
+    constexpr std::size_t kCount = 100000, kNearest = 20;
+    std::vector<Photon> photons(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) photons[i].position[i % 3] = i % 2 == 0 ? 1.0 : 2.0;
+    const PhotonTree tree(std::move(photons));
+    std::size_t visited = 0;
+    const auto every = [&](const Photon&) { return ++visited > 0; };
+    std::vector<PhotonTree::Near> found, other;
+    for (const Vec3& p : {Vec3{1, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 1}}) {
+        tree.nearest(p, kNearest, kInfinity, every, found);
+        EXPECT_EQ(found.front().squared, 0.0);
+        tree.nearest(p, kNearest, kInfinity, 0.0, every, other);
+        std::sort(found.begin(), found.end());
+        std::sort(other.begin(), other.end());
+        EXPECT_EQ(found, other);
+    }
+    // Six searches; in each some paths of 17 levels.
+    EXPECT_LT(visited, 6 * 17 * 8 * kNearest);
+}
+
+TEST(PhotonDensity, IrradianceAtPhotonsEndsAfterAStop) {
+    PhotonMap map;
+    std::vector<Photon> photons = random_photons(1000, false, 1);
+    for (Photon& p : photons) {
+        p.normal = OctahedralVector({0, 0, 1});
+        p.power = {1, 1, 1};
+    }
+    map.tree = PhotonTree(std::move(photons));
+    map.nearest = 10;
+    map.radius = 1.0;
+    const auto lit = [&] {
+        return std::count_if(map.irradiance.begin(), map.irradiance.end(),
+                             [](const Spectrum& s) { return !s.is_black(); });
+    };
+    StopFlag stop;
+    compute_irradiance(map, &stop);
+    EXPECT_EQ(lit(), 1000);
+    stop.request();
+    compute_irradiance(map, &stop);
+    EXPECT_EQ(lit(), 0);
+}
+
 TEST(PhotonDensity, FiltersHaveAMeanOfOneOverTheDisc) {
     for (const DensityFilter filter :
          {DensityFilter::Disc, DensityFilter::Cone, DensityFilter::Gauss}) {
