@@ -364,6 +364,39 @@ std::string message_of(const Scene& scene, const std::string& renderer) {
     return "";
 }
 
+/// A room with a ball and a cloud. All coordinates are exact.
+Scene shifted_room(const Vec3& by) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        look_along(by + Vec3{0, -3.5, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
+    BoxShape walls;
+    walls.lo = by + Vec3{-1, -4, 0};
+    walls.hi = by + Vec3{1, 1, 2};
+    maker.add(walls, maker.material(matt({0.7, 0.6, 0.3})));
+    maker.add(ball(by + Vec3{0.5, 0, 0.5}, 0.5), maker.material(matt({0.8, 0.2, 0.1})));
+    maker.add(ball(by + Vec3{-0.5, 0, 1.25}, 0.25),
+              maker.material(testing::fog({0, 0, 0}, {4, 4, 4})));
+    maker.light(PointLight{
+        .position = by + Vec3{0, -1, 1.5}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    return maker.compile();
+}
+
+TEST(PhotonRenderers, FarFromTheOriginThePictureIsTheSame) {
+    const Scene near = shifted_room({0, 0, 0}), far = shifted_room({0x1p22, -0x1p23, 0x1p21});
+    for (const char* renderer :
+         {"photon_mapping:photons=4000", "photon_mapping:photons=4000,gather=4,caustics=0",
+          "photon_mapping:photons=4000,irradiance=on", "sppm:photons=4000,radius=0.1",
+          "vcm:photons=4000,radius=0.1"}) {
+        const Film a = picture_of(near, renderer, 8, 4), b = picture_of(far, renderer, 8, 4);
+        double off = 0.0, sum = 0.0;
+        for (int i = 0; i < 64; ++i) {
+            off += std::abs(a.at(i % 8, i / 8).g - b.at(i % 8, i / 8).g);
+            sum += a.at(i % 8, i / 8).g;
+        }
+        EXPECT_LT(off, 1e-3 * sum) << renderer;
+    }
+}
+
 TEST(PhotonRenderers, SayWhyTheyCannotShoot) {
     const Scene lit = room([](SceneMaker& m) { add_lamp(m, 0.3, {9, 8, 6}); });
     const Scene unsent = room([](SceneMaker& m) {
@@ -428,7 +461,7 @@ TEST(PhotonGrid, FindsAllWithinTheRadiusOnce) {
     for (const double radius : {0.01, 0.1, 0.7, 5.0}) {
         std::vector<Photon> photons(2000);
         for (std::size_t i = 0; i < photons.size(); ++i) {
-            for (float& x : photons[i].position) x = static_cast<float>(random.uniform(-1, 1));
+            for (double& x : photons[i].position) x = random.uniform(-1, 1);
             photons[i].power[0] = static_cast<float>(i);
         }
         const PhotonGrid grid(photons, radius);

@@ -8,7 +8,7 @@
 namespace alhazen {
 
 struct CloudPhoton {
-    std::array<float, 3> position{};
+    std::array<double, 3> position{};
     std::array<float, 3> direction{};  ///< unit, of travel
     std::array<float, 3> power{};
     std::uint8_t caustic = 0;  ///< 1: from the caustic map

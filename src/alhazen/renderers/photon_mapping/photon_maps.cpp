@@ -77,7 +77,8 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
     }
     if (settings.irradiance) {
         ThreadLimit threads(job.control.threads);
-        threads.run([&] { compute_irradiance(pair.global); });
+        threads.run([&] { compute_irradiance(pair.global, job.control.stop); });
+        if (job.stop_requested()) return maps.complete = false;
     }
     if (settings.caustics == 0) return true;
     seed = mix64(seed);

@@ -1,12 +1,12 @@
 #pragma once
-/// Light that has arrived at a surface, or at a scattering event in a volume, in 32 bytes.
+/// Light that has arrived at a surface, or at a scattering event in a volume, in 48 bytes.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 4 (a compact
 /// photon); Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 /// JCGT 3(2), 2014 (octahedral vectors).
-/// Differs: three floats of power instead of a shared exponent; stores the normal of the surface,
-/// to exclude light of the other side of a wall.
-/// Conventions: world space; directions are accurate to 10^-4 rad, positions rounded to floats.
+/// Differs: three floats of power instead of a shared exponent; positions in double, for scenes far
+/// from the origin; stores the normal of the surface, to exclude light of the other side of a wall.
+/// Conventions: world space; directions are accurate to 10^-4 rad.
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ class OctahedralVector {
 [[nodiscard]] std::array<float, 3> stored_light(const Spectrum& light, const Wavelengths& waves);
 
 struct Photon {
-    std::array<float, 3> position{};
+    std::array<double, 3> position{};
     std::array<float, 3> power{};  ///< arriving power, as `stored_light`
     OctahedralVector from;         ///< direction towards its origin
     OctahedralVector normal;       ///< geometric, on that side; none in a volume
@@ -91,7 +91,7 @@ struct Photon {
   private:
     [[nodiscard]] Spectrum light_of_waves() const;
 };
-static_assert(sizeof(Photon) == 32);
+static_assert(sizeof(Photon) == 48);
 
 /// The scattering of a photon between its light and the surface.
 enum class PhotonKind : std::uint8_t {

@@ -106,7 +106,7 @@ double usual_radius(const PhotonTree& tree, std::size_t nearest) {
     return 2.0 * std::sqrt(*most);
 }
 
-void compute_irradiance(PhotonMap& map) {
+void compute_irradiance(PhotonMap& map, const StopFlag* stop) {
     const std::span<const Photon> photons = map.tree.photons();
     map.irradiance.assign(photons.size(), {});
     constexpr std::size_t kTogether = 256;
@@ -114,6 +114,7 @@ void compute_irradiance(PhotonMap& map) {
         std::vector<PhotonTree::Near> found;
         double guess = 0.0;
         for (std::size_t i = begin; i < end; ++i) {
+            if (stop != nullptr && stop->requested()) return;
             const PhotonFits fits(photons[i].normal.vector(), false);
             const auto [around, squared] =
                 counted_photons(map, photons[i].point(), fits, guess, found);

@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "alhazen/base/progress.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon_tree.h"
@@ -86,12 +87,13 @@ struct PhotonMap {
 };
 
 /// Computes `irradiance` of a map, with the threads of the caller's ThreadLimit: matt surfaces then
-/// interpolate between the surrounding photons by distance.
+/// interpolate between the surrounding photons by distance. Ends early, with irradiance missing,
+/// after a stop; `stop` may be null.
 ///
 /// Source: Christensen, "Faster Photon Map Global Illumination", JGT 4(3), 1999.
 /// Differs: interpolates between a few photons instead of the nearest one, which avoids visible
 /// cells.
-void compute_irradiance(PhotonMap& map);
+void compute_irradiance(PhotonMap& map, const StopFlag* stop);
 
 /// Photons per area at a point with that geometric normal.
 [[nodiscard]] double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal);

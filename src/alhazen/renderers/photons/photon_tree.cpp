@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLargeSubtree = 1u << 14;
 
 int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> photons) {
-    std::array<float, 3> low = photons[order[0]].position, high = low;
+    std::array<double, 3> low = photons[order[0]].position, high = low;
     for (const std::uint32_t i : order) {
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::min(low[k], photons[i].position[k]);
@@ -23,7 +23,7 @@ int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> p
     int longest = 0;
     double side = -1.0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double own = static_cast<double>(high[k]) - static_cast<double>(low[k]);
+        const double own = high[k] - low[k];
         if (own > side) {
             side = own;
             longest = static_cast<int>(k);
@@ -82,7 +82,7 @@ void PhotonTree::build(std::span<std::uint32_t> order, std::size_t node,
     const std::size_t left = left_subtree_size(order.size());
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
         const auto k = static_cast<std::size_t>(axis);
-        const float x = photons_[a].position[k], y = photons_[b].position[k];
+        const double x = photons_[a].position[k], y = photons_[b].position[k];
         return x < y || (x == y && a < b);
     };
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(left), order.end(),

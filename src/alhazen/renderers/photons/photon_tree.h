@@ -6,13 +6,14 @@
 /// balanced, in the order of a heap, split across the longest side).
 /// Conventions: node i has the children 2 i + 1 and 2 i + 2; no pointers. Ties of coordinates are
 /// broken by the earlier photon, ties of distances by the lower node: the tree and its results
-/// depend only on the list of photons.
+/// depend only on the list of photons, and a search is fast where photons coincide.
 /// Complexity: build O(n log n), 5 bytes per photon in addition to the photons; a search O(k + log
 /// n) in the usual case. Threads: const functions may be called concurrently.
 
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -42,7 +43,8 @@ class PhotonTree {
     void nearest(const Vec3& point, std::size_t count, double squared, const Accept& accept,
                  std::vector<Near>& found) const {
         found.clear();
-        search(0, point, count, squared, accept, found);
+        Near farthest{squared, kLastNode};
+        search(0, point, count, farthest, accept, found);
     }
 
     /// The same photons as `nearest`, in traversal order, which depends only on the point; the
@@ -65,6 +67,8 @@ class PhotonTree {
     }
 
   private:
+    static constexpr std::uint32_t kLastNode = std::numeric_limits<std::uint32_t>::max();
+
     /// Keeps the `count` nearest, in their order.
     static void keep_nearest(std::size_t count, std::vector<Near>& found);
 
@@ -76,18 +80,19 @@ class PhotonTree {
         std::array<std::uint32_t, kMostLevels> waiting;
         std::size_t levels = 0;
         const std::size_t size = photons_.size();
+        Near farthest{squared, kLastNode};
         if (size > 0) waiting[levels++] = 0;
         while (levels > 0) {
             std::size_t node = waiting[--levels];
-            while (node < size) {
+            while (node < size && is_wanted(0.0, node, farthest)) {
                 const Photon& photon = photons_[node];
                 const Vec3 apart = photon.point() - point;
                 const Near near{length_squared(apart), static_cast<std::uint32_t>(node)};
-                if (near.squared <= squared && accept(photon)) {
+                if (near <= farthest && accept(photon)) {
                     found.push_back(near);
                     if (found.size() > kTimes * count) {
                         keep_nearest(count, found);
-                        squared = std::max_element(found.begin(), found.end())->squared;
+                        farthest = *std::max_element(found.begin(), found.end());
                     }
                 }
                 const std::size_t left = 2 * node + 1;
@@ -95,7 +100,7 @@ class PhotonTree {
                 const double to_plane = -apart[axes_[node]];
                 const std::size_t near_side = to_plane < 0.0 ? left : left + 1;
                 const std::size_t far_side = 2 * left + 1 - near_side;
-                if (far_side < size && to_plane * to_plane <= squared) {
+                if (far_side < size && is_wanted(to_plane * to_plane, far_side, farthest)) {
                     waiting[levels++] = static_cast<std::uint32_t>(far_side);
                 }
                 node = near_side;
@@ -105,31 +110,36 @@ class PhotonTree {
 
     void build(std::span<std::uint32_t> order, std::size_t node, std::vector<std::uint32_t>& nodes);
 
+    /// Whether a subtree may hold photons up to `farthest`: its nodes are `root` and higher ones,
+    /// whose squared distances are at least `squared`.
+    [[nodiscard]] static bool is_wanted(double squared, std::size_t root, const Near& farthest) {
+        return Near{squared, static_cast<std::uint32_t>(root)} <= farthest;
+    }
+
     template <class Accept>
-    void search(std::size_t node, const Vec3& point, std::size_t count, double& squared,
+    void search(std::size_t node, const Vec3& point, std::size_t count, Near& farthest,
                 const Accept& accept, std::vector<Near>& found) const {
-        if (node >= photons_.size()) return;
+        if (node >= photons_.size() || !is_wanted(0.0, node, farthest)) return;
         const Photon& photon = photons_[node];
         const Vec3 apart = photon.point() - point;
         if (2 * node + 1 < photons_.size()) {
             const double to_plane = -apart[axes_[node]];
-            const std::size_t far = to_plane < 0.0 ? 1 : 0;
-            search(2 * node + 2 - far, point, count, squared, accept, found);
-            if (to_plane * to_plane <= squared) {
-                search(2 * node + 1 + far, point, count, squared, accept, found);
+            const std::size_t far = to_plane < 0.0 ? 1 : 0, far_side = 2 * node + 1 + far;
+            search(2 * node + 2 - far, point, count, farthest, accept, found);
+            if (is_wanted(to_plane * to_plane, far_side, farthest)) {
+                search(far_side, point, count, farthest, accept, found);
             }
         }
         const Near near{length_squared(apart), static_cast<std::uint32_t>(node)};
-        if (!(near.squared <= squared) || !accept(photon)) return;
+        if (!(near <= farthest) || !accept(photon)) return;
         if (found.size() == count) {
-            if (!(near < found.front())) return;
             std::pop_heap(found.begin(), found.end());
             found.back() = near;
         } else {
             found.push_back(near);
         }
         std::push_heap(found.begin(), found.end());
-        if (found.size() == count) squared = found.front().squared;
+        if (found.size() == count) farthest = found.front();
     }
 
     std::vector<Photon> photons_;

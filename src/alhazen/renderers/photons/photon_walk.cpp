@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "alhazen/sampling/random.h"
 
@@ -17,15 +16,10 @@ constexpr std::uint64_t kTimeOfPhoton = std::uint64_t{1} << 31;
 /// Dimension of the kind of the first segment.
 constexpr std::uint64_t kFirstSegment = kTimeOfPhoton + 1;
 
-std::array<float, 3> floats(const Vec3& p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-/// Whether a photon can be there.
+/// Whether the squared distance to all others there is finite.
 bool is_in_reach(const Vec3& p) {
-    const auto is_float = [](double x) {
-        return std::abs(x) <= double{std::numeric_limits<float>::max()};
-    };
-    return is_float(p.x) && is_float(p.y) && is_float(p.z);
+    constexpr double kMost = 0x1p510;
+    return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
 }
 
 }  // namespace
@@ -70,8 +64,10 @@ void PhotonWalk::store(PhotonKind kind, const Spectrum& power, const Wavelengths
     // At a partly covering surface eye paths stop with the same probability as the photon.
     const double coverage = next_.point().material->coverage;
     const double share = 1.0 / (coverage * static_cast<double>(shot_.count));
-    stored.push_back({floats(p), stored_light(share * power, waves),
-                      OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
+    stored.push_back({{p.x, p.y, p.z},
+                      stored_light(share * power, waves),
+                      OctahedralVector(scatter_.view()),
+                      OctahedralVector(scatter_.geometric())});
 }
 
 void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const Wavelengths& waves,
@@ -80,13 +76,17 @@ void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const
     const VolumePoint& at = next_.volume();
     if (!is_in_reach(at.point)) return;
     const double share = 1.0 / static_cast<double>(shot_.count);
-    stored.push_back({floats(at.point), stored_light(share * fluence, waves),
-                      OctahedralVector(-at.along), OctahedralVector::none()});
+    const Vec3& p = at.point;
+    stored.push_back({{p.x, p.y, p.z},
+                      stored_light(share * fluence, waves),
+                      OctahedralVector(-at.along),
+                      OctahedralVector::none()});
 }
 
-bool PhotonWalk::survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,
+bool PhotonWalk::survives_roulette(PathEnd& path, const Spectrum& begun, const PathNumbers& numbers,
                                    std::uint64_t dimension) const {
-    const double share = path.throughput.max() / begun;
+    if (path.throughput.is_black()) return false;
+    const double share = path.throughput.max() / begun.max();
     if (!(share < 1.0)) return path.throughput.is_finite();
     if (!(numbers.at(dimension) < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
@@ -119,7 +119,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     path.media = start.media;
     FirstSegment first_segment = FirstSegment::Any;
     if (start.of_either) first_segment = choose_first(path, numbers);
-    const double begun = path.throughput.max();
+    Spectrum begun = path.throughput;
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
@@ -136,6 +136,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             if (caustics_only_) return true;
             kind = PhotonKind::Indirect;
             path.throughput = fall * path.throughput;
+            begun = fall * begun;
             scattered = true;
             fall = Spectrum::all(1);
             next_.go_on_in_volume(path, {numbers.at(first + 1), numbers.at(first + 2)});
@@ -180,7 +181,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             } else if (kind == PhotonKind::Direct) {
                 kind = PhotonKind::Caustic;
             }
-            if (!scattered) path.throughput = fall * path.throughput;
+            path.throughput = fall * path.throughput;
+            begun = fall * begun;
             scattered = true;
             fall = Spectrum::all(1);
         }

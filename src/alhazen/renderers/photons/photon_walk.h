@@ -11,7 +11,7 @@
 /// Conventions: photons are numbered. The path of a photon depends only on the scene, the seed and
 /// its number. A photon in a volume stands for fluence: power times the length of its path there.
 /// Surfaces passed straight (thin sheets) receive light and are no events; null boundaries receive
-/// none. No photon is stored where a coordinate is beyond the range of float.
+/// none. No photon is stored where squared distances may be infinite.
 
 #include <cstdint>
 #include <memory>
@@ -58,8 +58,8 @@ class PhotonWalk {
                std::vector<Photon>& stored) const;
     void store_in_volume(PhotonKind kind, const Spectrum& fluence, const Wavelengths& waves,
                          std::vector<Photon>& stored) const;
-    [[nodiscard]] bool survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,
-                                         std::uint64_t dimension) const;
+    [[nodiscard]] bool survives_roulette(PathEnd& path, const Spectrum& begun,
+                                         const PathNumbers& numbers, std::uint64_t dimension) const;
 
     const Scene& scene_;
     const Illumination& lights_;

@@ -1,6 +1,5 @@
 #include "alhazen/renderers/vcm/light_paths.h"
 
-#include <array>
 #include <cmath>
 
 #include "alhazen/renderers/core/sampling_plan.h"
@@ -11,10 +10,6 @@ namespace {
 
 /// Pairs of dimensions of the start of a light path: place, direction; time and choice.
 enum StartPair : std::uint32_t { kPlace = 0, kAlong = 1, kChoice = PathRandomness::kTime };
-
-std::array<float, 3> as_floats(double x, double y, double z) {
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
 
 /// Factor from a density by solid angle at `v` to one by area at the vertex before.
 double facing_from(const PathVertex& v, const PathVertex& before) {
@@ -72,8 +67,10 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
     Spectrum ignored;
     if (v.hero_only) waves.keep_hero(ignored);
     const Spectrum power = (1.0 / (v.coverage * static_cast<double>(shot_.count))) * v.throughput;
-    kept.push_back({{as_floats(p.x, p.y, p.z), stored_light(power, waves),
-                     OctahedralVector(v.scatter.view()), OctahedralVector(v.scatter.geometric())},
+    kept.push_back({{{p.x, p.y, p.z},
+                     stored_light(power, waves),
+                     OctahedralVector(v.scatter.view()),
+                     OctahedralVector(v.scatter.geometric())},
                     sums,
                     facing,
                     static_cast<std::uint32_t>(number)});
