@@ -98,20 +98,26 @@ std::vector<Vec3> corners_in_plane(const Polygon& p) {
 /// The parts of a polygon by the odd-even rule; none if its corners are too far off its plane.
 EmitterParts odd_even_parts(const Affine& world, const Polygon& p) {
     const std::vector<Vec3> corners = corners_in_plane(p);
+    const RepairedPolygon repaired =
+        repaired_polygon(corners, p.loop_ends, {p.normal, dot(p.normal, p.point)});
     EmitterParts parts;
-    PartArea area = append_parts(world, corners, parts);
-    const bool is_simple =
-        p.loop_ends.size() <= 1 && area.sum <= length(area.vector) * (1.0 + 1e-9);
-    if (!is_simple) {
-        parts = {};
-        area = {};
-        const RepairedPolygon repaired =
-            repaired_polygon(corners, p.loop_ends, {p.normal, dot(p.normal, p.point)});
-        for (const std::vector<Vec3>& part : repaired.parts) {
-            area.sum += append_parts(world, part, parts).sum;
+    double area = 0.0;
+    for (const std::vector<Vec3>& part : repaired.parts) {
+        area += append_parts(world, part, parts).sum;
+    }
+    if (p.loop_ends.size() <= 1) {
+        EmitterParts of_loop;
+        const PartArea own = append_parts(world, corners, of_loop);
+        // The triangles of a loop that crosses itself cover more than it encloses.
+        const bool covers_once = repaired.refused.empty()
+                                     ? own.sum <= area * (1.0 + 1e-6)
+                                     : own.sum <= length(own.vector) * (1.0 + 1e-9);
+        if (covers_once) {
+            parts = std::move(of_loop);
+            area = own.sum;
         }
     }
-    if (p.off_plane <= kMostOffPlane * std::sqrt(area.sum)) return parts;
+    if (p.off_plane <= kMostOffPlane * std::sqrt(area)) return parts;
     return {};
 }
 
