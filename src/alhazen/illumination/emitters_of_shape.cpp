@@ -56,64 +56,76 @@ Emitter patch(const Affine& world, const BezierNet& net, bool turned) {
     return e;
 }
 
-/// Appends the triangles of corners to the parts of an emitter; returns their area in the frame of
-/// the shape.
-double append_parts(const Affine& world, std::span<const Vec3> corners, EmitterParts& parts) {
+/// The area of triangles in the frame of their shape.
+struct PartArea {
+    double sum = 0;
+    Vec3 vector;  ///< sum of area times normal: shorter than `sum` unless all face one way
+};
+
+/// Appends the triangles of corners to the parts of an emitter.
+PartArea append_parts(const Affine& world, std::span<const Vec3> corners, EmitterParts& parts) {
     std::vector<std::uint32_t> loop(corners.size());
     for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
     std::vector<std::array<std::uint32_t, 3>> triangles;
     triangulate(corners, loop, triangles);
-    double sum = parts.areas.empty() ? 0.0 : parts.areas.back(), own_sum = 0.0;
+    PartArea own;
+    double sum = parts.areas.empty() ? 0.0 : parts.areas.back();
     for (const auto& t : triangles) {
         const Vec3 &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
-        own_sum += 0.5 * length(cross(b - a, c - a));
+        const Vec3 area = 0.5 * cross(b - a, c - a);
+        own.sum += length(area);
+        own.vector += area;
         const Vec3 wa = world.point(a), wb = world.point(b), wc = world.point(c);
         sum += 0.5 * length(cross(wb - wa, wc - wa));
         for (const Vec3& corner : {wa, wb, wc}) parts.corners.push_back(corner);
         parts.areas.push_back(sum);
     }
-    return own_sum;
+    return own;
 }
 
 /// Largest distance of a polygon's corners from its plane, relative to the root of its area, that
-/// is rounding: of floats as far from the origin as a thousand times the size.
+/// is rounding: of floats as far from the origin as a thousand times the size. Farther off, the
+/// outline in the plane depends on the direction in which it is seen.
 constexpr double kMostOffPlane = 1e-4;
 
-/// The corners of a polygon in its plane, so that rays do not meet it in front of a sampled point.
-std::vector<Vec3> corners_in_plane(const Polygon& p, double area) {
+/// The corners of a polygon in its plane, so that no ray to or from a point between them meets it.
+std::vector<Vec3> corners_in_plane(const Polygon& p) {
     std::vector<Vec3> corners = p.vertices;
-    if (p.off_plane <= 1e-9 * std::sqrt(area)) return corners;
     for (Vec3& corner : corners) corner -= dot(p.normal, corner - p.point) * p.normal;
     return corners;
 }
 
-/// The parts of a polygon with holes or that crosses itself, by the odd-even rule; none if corners
-/// are off its plane.
-EmitterParts repaired_parts(const Affine& world, const Polygon& p, std::span<const Vec3> corners) {
-    EmitterParts parts;
+/// The parts of a polygon by the odd-even rule; none if its corners are too far off its plane.
+EmitterParts odd_even_parts(const Affine& world, const Polygon& p) {
+    const std::vector<Vec3> corners = corners_in_plane(p);
     const RepairedPolygon repaired =
         repaired_polygon(corners, p.loop_ends, {p.normal, dot(p.normal, p.point)});
-    double own_sum = 0.0;
-    for (const std::vector<Vec3>& part : repaired.parts)
-        own_sum += append_parts(world, part, parts);
-    if (p.off_plane <= kMostOffPlane * std::sqrt(own_sum)) return parts;
+    EmitterParts parts;
+    double area = 0.0;
+    for (const std::vector<Vec3>& part : repaired.parts) {
+        area += append_parts(world, part, parts).sum;
+    }
+    if (p.loop_ends.size() <= 1) {
+        EmitterParts of_loop;
+        const PartArea own = append_parts(world, corners, of_loop);
+        // The triangles of a loop that crosses itself cover more than it encloses.
+        const bool covers_once = repaired.refused.empty()
+                                     ? own.sum <= area * (1.0 + 1e-6)
+                                     : own.sum <= length(own.vector) * (1.0 + 1e-9);
+        if (covers_once) {
+            parts = std::move(of_loop);
+            area = own.sum;
+        }
+    }
+    if (p.off_plane <= kMostOffPlane * std::sqrt(area)) return parts;
     return {};
 }
 
 /// The emitter of a planar polygon; of one with corners off its plane an emitter without parts.
 Emitter polygon(const Affine& world, const Polygon& p) {
-    std::vector<std::uint32_t> loop(p.vertices.size());
-    for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
-    const double true_area = 0.5 * length(newell_normal(p.vertices, loop));
-    const std::vector<Vec3> corners = corners_in_plane(p, true_area);
-    EmitterParts parts;
-    const double own_sum = append_parts(world, corners, parts);
     const Vec3 y = cross(p.normal, p.u_axis);
     Emitter e = flat(EmitterForm::Polygon, world, p.point, p.u_axis, y);
-    const bool simple = p.loop_ends.size() <= 1 && own_sum <= true_area * (1.0 + 1e-9) &&
-                        p.off_plane <= kMostOffPlane * std::sqrt(true_area);
-    if (!simple) parts = repaired_parts(world, p, corners);
-    e.parts = std::make_shared<const EmitterParts>(std::move(parts));
+    e.parts = std::make_shared<const EmitterParts>(odd_even_parts(world, p));
     return e;
 }
 

@@ -5,6 +5,7 @@
 
 #include "alhazen/shading/materials/wall_material.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
+#include "alhazen/shapes/meshes/mesh_shells.h"
 
 #include <fmt/format.h>
 
@@ -18,17 +19,19 @@ class SolidValidator {
         : d_(description),
           out_(diagnostics),
           is_operand_(description.objects.size(), false),
+          stands_alone_(description.objects.size(), false),
           mesh_state_(description.meshes.size(), MeshState::Unknown),
           inward_(description.meshes.size()) {}
 
     void run() {
         mark_operands();
+        mark_standing_alone();
         for (std::size_t i = 0; i < d_.objects.size(); ++i) {
             const ObjectDescription& object = d_.objects[i];
-            if (!is_operand_[i]) {
+            if (stands_alone_[i]) {
                 for (const Part& part : object.parts) warn_of_inward(part);
-                continue;
             }
+            if (!is_operand_[i]) continue;
             if (object.parts.empty() && (object.combine == Combine::Intersection ||
                                          object.combine == Combine::Difference)) {
                 error(object.location,
@@ -52,23 +55,29 @@ class SolidValidator {
 
     /// Marks the solids and all objects that they use.
     void mark_operands() {
+        for (std::size_t i = 0; i < d_.objects.size(); ++i) {
+            if (d_.objects[i].combine != Combine::Group) mark(i, is_operand_, true);
+        }
+    }
+    /// Marks the groups that the scene shows outside of solids.
+    void mark_standing_alone() { mark(static_cast<std::size_t>(d_.root), stands_alone_, false); }
+
+    /// Marks an object and all that it uses; solids, and what they use, only with `also_solids`.
+    void mark(std::size_t first, std::vector<bool>& marks, bool also_solids) {
         std::vector<std::size_t> open;
-        const auto mark = [&](std::size_t object) {
-            if (is_operand_[object]) return;
-            is_operand_[object] = true;
+        const auto add = [&](std::size_t object) {
+            if (object >= d_.objects.size() || marks[object]) return;
+            if (!also_solids && d_.objects[object].combine != Combine::Group) return;
+            marks[object] = true;
             open.push_back(object);
         };
-        for (std::size_t i = 0; i < d_.objects.size(); ++i) {
-            if (d_.objects[i].combine != Combine::Group) mark(i);
-        }
+        add(first);
         while (!open.empty()) {
             const std::size_t object = open.back();
             open.pop_back();
             for (const Part& part : d_.objects[object].parts) {
                 const auto* child = std::get_if<ObjectIndex>(&part.what);
-                if (child == nullptr) continue;
-                const auto c = static_cast<std::size_t>(*child);
-                if (c < d_.objects.size()) mark(c);
+                if (child != nullptr) add(static_cast<std::size_t>(*child));
             }
         }
     }
@@ -130,24 +139,20 @@ class SolidValidator {
         const auto i = static_cast<std::size_t>(*of_mesh);
         if (i >= d_.meshes.size() || !d_.meshes[i].mesh) return;
         const std::vector<std::uint32_t>& own = d_.meshes[i].mesh->vertex_materials;
-        const bool is_volume =
+        const bool has_volume =
             own.empty()
-                ? bounds_volume(static_cast<std::size_t>(part.material))
-                : std::ranges::any_of(own, [&](std::uint32_t id) { return bounds_volume(id); });
-        if (!is_volume || !faces_inward(i)) return;
+                ? has_volume_inside(static_cast<std::size_t>(part.material))
+                : std::ranges::any_of(own, [&](std::uint32_t id) { return has_volume_inside(id); });
+        if (!has_volume || !faces_inward(i)) return;
         out_.warning(place(part.location),
-                     fmt::format("{} is closed and faces inward, so its transparent material fills "
-                                 "the outside of it, not the inside; reverse its faces, or put it "
-                                 "into a union",
+                     fmt::format("{} is closed and faces inward, or a shell of it does, so its "
+                                 "transparent material fills the outside of it, not the inside; "
+                                 "reverse its faces, or put it into a union",
                                  in_words(d_.meshes[i])));
     }
 
-    [[nodiscard]] bool bounds_volume(std::size_t material) const {
-        if (material >= d_.materials.size()) return false;
-        const Material& m = d_.materials[material].material;
-        const bool is_sheet = !m.conductor && !m.dielectric && m.metallic_roughness &&
-                              !(m.metallic_roughness->thickness.value > 0.0);
-        return is_clear(m) && !is_sheet;
+    [[nodiscard]] bool has_volume_inside(std::size_t material) const {
+        return material < d_.materials.size() && has_inside(d_.materials[material].material);
     }
 
     bool faces_inward(std::size_t mesh) {
@@ -156,9 +161,7 @@ class SolidValidator {
             const TriangleMesh& m = *d_.meshes[mesh].mesh;
             Diagnostics ignored;
             m.validate({}, ignored);
-            // The volume first: edges are sorted, which takes longer.
-            known =
-                ignored.error_count() == 0 && signed_volume(m) < 0.0 && mesh_edges(m).oriented();
+            known = ignored.error_count() == 0 && has_inward_shell(m);
         }
         return *known;
     }
@@ -172,9 +175,10 @@ class SolidValidator {
 
     const SceneDescription& d_;
     Diagnostics& out_;
-    std::vector<bool> is_operand_;
+    std::vector<bool> is_operand_;    ///< [object] a solid, or used by one
+    std::vector<bool> stands_alone_;  ///< [object] a group, shown outside of solids
     std::vector<MeshState> mesh_state_;
-    std::vector<std::optional<bool>> inward_;  ///< [mesh] closed, facing inward
+    std::vector<std::optional<bool>> inward_;  ///< [mesh] has_inward_shell
 };
 
 }  // namespace

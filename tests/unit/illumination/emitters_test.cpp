@@ -141,7 +141,14 @@ TEST(Emitters, PolygonsThatCrossThemselvesOrHaveHolesAreDrawn) {
     ring.vertices = {{-1, -1, 3}, {-1, 1, 3},    {1, 1, 3},    {1, -1, 3},
                      {0, 0, 3},   {0.5, 0.2, 3}, {0.5, 0.5, 3}};
     ring.loop_ends = {4, 7};
-    for (const Polygon& lamp : {bow, ring}) {
+    // A strip of 500 degrees around a centre: every triangle of it turns left.
+    Polygon strip;
+    for (int i = 0; i < 50; ++i) {
+        const double angle = kPi / 180.0 * 20.0 * (i < 25 ? i : 49 - i) * 500.0 / 480.0;
+        const double r = i < 25 ? 1.0 : 0.5;
+        strip.vertices.push_back({r * std::cos(angle), r * std::sin(angle), 3});
+    }
+    for (const Polygon& lamp : {bow, ring, strip}) {
         for (const Affine& placement : {Affine{}, kSkew, kMirror}) {
             const Scene scene = lamp_of(lamp, placement);
             const Illumination lights(scene);

@@ -116,5 +116,39 @@ TEST(FlatEmitters, PolygonsWithCornersRoundedToFloatsAreDrawn) {
     }
 }
 
+TEST(FlatEmitters, RaysFromPolygonsWithCornersOffTheirPlaneLeaveThem) {
+    for (const bool has_hole : {false, true}) {
+        for (double off = 1e-15; off < 1e-4; off *= 4.0) {
+            // Two opposite corners are raised, and all of the hole.
+            Polygon lamp;
+            lamp.vertices = {{-1, -1, 3 + off}, {-1, 1, 3}, {1, 1, 3 + off}, {1, -1, 3}};
+            lamp.loop_ends = {4};
+            if (has_hole) {
+                for (const Vec2& at : {Vec2{0, 0}, Vec2{0.5, 0.2}, Vec2{0.5, 0.6}}) {
+                    lamp.vertices.push_back({at.x, at.y, 3 + off});
+                }
+                lamp.loop_ends.push_back(7);
+            }
+            SceneMaker maker;
+            Material surface;
+            surface.emission.color = {1, 1, 1};
+            maker.add(lamp, maker.material(surface));
+            const Scene scene = maker.compile();
+            const Illumination lights(scene);
+            Random random(93);
+            for (int i = 0; i < 200; ++i) {
+                const Vec2 place{random.uniform(), random.uniform()};
+                const Vec2 direction{random.uniform(), random.uniform()};
+                const LightRay out =
+                    lights.emit(random.uniform(), place, direction, kColorChannels);
+                ASSERT_GT(out.place_density, 0.0);
+                Hit hit;
+                ASSERT_FALSE(scene.aggregate->closest(out.ray, hit, {nullptr}))
+                    << "off " << off << ", ray " << i;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

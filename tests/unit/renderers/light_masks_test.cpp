@@ -154,6 +154,52 @@ TEST(LightMasks, ASphereOfLightWithoutShadowShowsBothOfItsSides) {
     }
 }
 
+// Rays that scatter at the floor find them: they meet the near side of a ball, and what hides it.
+TEST(LightMasks, LightLeftToChanceIsWhatReflectedRaysMeet) {
+    const double once = 8 * 0.25 * std::asin(0.2);
+    enum class Lamp { Superellipsoid, Solid, Moving };
+    const struct {
+        RayMask lamp, screen;
+        double light;
+    } cases[] = {
+        {kNoShadow, mask_of(RayKind::Eye), once},
+        {kAllRays, mask_of(RayKind::Shadow), once},
+        {kAllRays, kNoShadow, 0.0},
+    };
+    for (const Lamp lamp : {Lamp::Superellipsoid, Lamp::Solid, Lamp::Moving}) {
+        for (const auto& c : cases) {
+            SceneMaker maker = floor_from_above(2);
+            const MaterialId material = maker.material(shining({8, 4, 2}));
+            if (lamp == Lamp::Superellipsoid) {
+                maker.add(Superellipsoid{.center = {0, 0, 2},
+                                         .axis_a = {0.5, 0, 0},
+                                         .axis_b = {0, 0.5, 0},
+                                         .axis_c = {0, 0, 0.5}},
+                          material);
+            } else if (lamp == Lamp::Solid) {
+                const ObjectIndex solid = maker.object("solid");
+                maker.description().objects.back().combine = Combine::Union;
+                maker.add(ball({0, 0, 2}, 0.5), material, {}, solid);
+                maker.add(solid);
+            } else {
+                maker.add(ball({0, 0, 2}, 0.5), material);
+                maker.description().objects[0].parts.back().motion =
+                    std::make_shared<const PartMotion>(
+                        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({0, 0, 1e-9})}}, {}});
+            }
+            show_last_to(maker, c.lamp);
+            maker.add(rectangle({-9, -9, 1}, {18, 0, 0}, {0, 18, 0}),
+                      maker.material(matt({0, 0, 0})));
+            show_last_to(maker, c.screen);
+            const Scene scene = maker.compile("wide_bvh");
+            for (const std::string renderer : {"path_tracing", "bidirectional"}) {
+                EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 512)).r, c.light, 0.04 * once)
+                    << renderer << ", lamp " << static_cast<int>(lamp) << ", case " << &c - cases;
+            }
+        }
+    }
+}
+
 TEST(LightMasks, TheSurfaceOfALightDoesNotOccludeAmbientLight) {
     const auto seen = [](RayMask mask) {
         SceneMaker maker = floor_from_above(1.2);

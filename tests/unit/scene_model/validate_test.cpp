@@ -178,7 +178,10 @@ TEST(Validate, AClosedMeshOfGlassThatFacesInwardIsAWarningOutsideOfSolids) {
     sheet.metallic_roughness.emplace().transmission.value = 1;
     Material body = sheet;
     body.metallic_roughness->thickness.value = 1;
-    for (const Material& m : {glass, coefficients, body}) {
+    Material wax;
+    wax.metallic_roughness.emplace().thickness.value = 1;
+    wax.metallic_roughness->diffuse_transmission.share.value = 0.5;
+    for (const Material& m : {glass, coefficients, body, wax}) {
         EXPECT_EQ(warnings(inward, m), 1u);
         EXPECT_EQ(warnings(outward, m), 0u);
         EXPECT_EQ(warnings(open, m), 0u);
@@ -187,6 +190,33 @@ TEST(Validate, AClosedMeshOfGlassThatFacesInwardIsAWarningOutsideOfSolids) {
     }
     EXPECT_EQ(warnings(inward, sheet), 0u);
     EXPECT_EQ(warnings(inward, {}), 0u);
+    wax.metallic_roughness->thickness.value = 0;
+    EXPECT_EQ(warnings(inward, wax), 0u);
+}
+
+TEST(Validate, AnInwardMeshIsAWarningWhereverTheSceneShowsItOutsideOfSolids) {
+    for (const bool alone : {false, true}) {
+        for (const bool in_union : {false, true}) {
+            SceneMaker maker;
+            Material glass;
+            glass.dielectric.emplace();
+            maker.material(glass);
+            TriangleMesh inward = testing::tetrahedron();
+            for (auto& triangle : inward.triangles) std::swap(triangle[0], triangle[1]);
+            const ObjectIndex object = maker.object("o"), within = maker.object("group"),
+                              solid = maker.object("solid");
+            maker.add(maker.mesh(std::move(inward)), {}, {}, object);
+            maker.add(object, {}, {}, within);
+            maker.add(object, {}, {}, solid);
+            maker.description().objects.back().combine = Combine::Union;
+            maker.add(Sphere{{9, 0, 0}, 1});
+            if (alone) maker.add(within);
+            if (in_union) maker.add(solid);
+            Diagnostics diagnostics;
+            validate(maker.description(), diagnostics);
+            EXPECT_EQ(diagnostics.all().size(), alone ? 1u : 0u) << in_union;
+        }
+    }
 }
 
 TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {

@@ -28,13 +28,6 @@ Vec3 outward(const ShadingPoint& point, const Vec3& direction, std::size_t numbe
     return normalize(along + kInward * outward);
 }
 
-/// True if light enters volumes of the material, if only by diffuse transmission.
-bool has_inside(const Material& m) {
-    if (may_bound_volume(m)) return true;
-    if (!m.metallic_roughness || m.conductor || m.dielectric) return false;
-    const MetallicRoughness& p = *m.metallic_roughness;
-    return p.diffuse_transmission.share.value > 0.0 && p.thickness.value > 0.0;
-}
 bool has_inside(const Scene& scene, MaterialId id) {
     return has_inside(scene.materials[static_cast<std::size_t>(id)]);
 }

@@ -4,17 +4,9 @@
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/materials/wall_material.h"
 
 namespace alhazen {
-
-/// True if a surface of the material may bound a volume; false for opaque ones and thin sheets.
-[[nodiscard]] inline bool may_bound_volume(const Material& m) {
-    if (m.conductor || m.dielectric) return m.dielectric.has_value();
-    if (const auto& p = m.metallic_roughness) {
-        return p->transmission.value > 0.0 && p->thickness.value > 0.0;
-    }
-    return m.transmissive.texture != kNoTexture || !m.transmissive.color.is_black();
-}
 
 /// True if a surface of the material may bound a volume of the index of the air without any other
 /// effect: light passes it straight (ScatterPoint::is_null_boundary).

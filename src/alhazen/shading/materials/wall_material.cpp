@@ -4,13 +4,6 @@
 
 namespace alhazen {
 
-bool is_clear(const Material& material) {
-    if (material.conductor || material.dielectric) return material.dielectric.has_value();
-    if (const auto& p = material.metallic_roughness) return p->transmission.value > 0.0;
-    const ColorInput& kt = material.transmissive;
-    return kt.texture != kNoTexture || !kt.color.is_black();
-}
-
 namespace {
 
 Rgb absorption_inside(const Material& volume) {

@@ -1,0 +1,18 @@
+#pragma once
+/// The shells of a mesh: sets of triangles that are connected by vertices.
+///
+/// Conventions: vertices of equal position are merged, where the mesh has more than one shell
+/// without that.
+/// Complexity: O(n log n); of n inward shells a sweep with those triangles of others that are as
+/// high as a point of theirs.
+
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+
+namespace alhazen {
+
+/// True if the mesh is closed and oriented (mesh_edges.h), and some shell of it faces inward that
+/// is no cavity of others: what it encloses has a negative winding number. Precondition: the mesh
+/// is valid.
+[[nodiscard]] bool has_inward_shell(const TriangleMesh& mesh);
+
+}  // namespace alhazen
