@@ -115,8 +115,11 @@ void PathTracer::scatter_lanes() {
     v.weigh(lights);
     for_each_lane(v.lit, [&](std::size_t lane) {
         const EyePath& path = *of_lanes_[lane].path;
-        const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
-                         LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
+        const double distance = lights.distance[lane];
+        const Ray leaving{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
+                          LeavingRays::kBeyondZero, distance};
+        const Ray shadow = ray_to_light(lights_, vector_of(v.triangles.point, lane), leaving,
+                                        distance, lights.places[lane]);
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
         shadows_.add_outside(shadow, path.time, shown, light_[path.sample]);
     });

@@ -289,7 +289,8 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= weights_.of_shadow_ray(drawn.density, phase);
-        const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
+        const Ray to_light = ray_to_light(lights_, ray.origin, {ray.origin, drawn.to_light},
+                                          drawn.distance, drawn.place);
         const Spectrum shown =
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
         Spectrum* const waiting = record_shadow(path, to_light, shown);
