@@ -116,11 +116,15 @@ void PathTracer::scatter_lanes() {
     for_each_lane(v.lit, [&](std::size_t lane) {
         const EyePath& path = *of_lanes_[lane].path;
         const double distance = lights.distance[lane];
-        const Ray leaving{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
-                          LeavingRays::kBeyondZero, distance};
-        const Ray shadow = ray_to_light(lights_, vector_of(v.triangles.point, lane), leaving,
-                                        distance, lights.places[lane]);
+        const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
+                         LeavingRays::kBeyondZero, kBeforeEnd * distance};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
+        const Vec3 point = vector_of(v.triangles.point, lane);
+        if (passes_beside(lights_, point, shadow.origin, distance)) [[unlikely]] {
+            const Ray aimed = ray_to_light(lights_, point, shadow, distance, lights.places[lane]);
+            shadows_.add(aimed, path.time, {}, kColorChannels, shown, light_[path.sample]);
+            return;
+        }
         shadows_.add_outside(shadow, path.time, shown, light_[path.sample]);
     });
     for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
