@@ -120,7 +120,8 @@ void PathTracer::scatter_lanes() {
                          LeavingRays::kBeyondZero, kBeforeEnd * distance};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
         const Vec3 point = vector_of(v.triangles.point, lane);
-        if (passes_beside(lights_, point, shadow.origin, distance)) [[unlikely]] {
+        if (most_beside_ > kMostBeside * distance &&
+            passes_beside(lights_, point, shadow.origin, distance)) [[unlikely]] {
             const Ray aimed = ray_to_light(lights_, point, shadow, distance, lights.places[lane]);
             shadows_.add(aimed, path.time, {}, kColorChannels, shown, light_[path.sample]);
             return;

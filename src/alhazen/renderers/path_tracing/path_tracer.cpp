@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "alhazen/illumination/emitter.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
@@ -31,6 +32,8 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
       escapes_later_(uses_lanes_ && lights.has_sky_picture()),
       plain_(scene_),
+      // LeavingRays at triangles: four times that bound at their largest coordinate, at most.
+      most_beside_(lights.rounding() + 4.0 * rounding_within(scene_.aggregate->box())),
       draws_(lights),
       faces_(scene_),
       media_(scene_),

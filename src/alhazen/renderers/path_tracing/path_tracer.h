@@ -222,6 +222,7 @@ class PathTracer {
     bool escapes_later_;                  ///< paths wait in `escaped_`
     std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
+    double most_beside_;  ///< bound of what `passes_beside` compares, for plain vertices
     VertexLanes lanes_;
     RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
