@@ -119,12 +119,8 @@ void PathTracer::scatter_lanes() {
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
                          LeavingRays::kBeyondZero, kBeforeEnd * distance};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
-        const Vec3 point = vector_of(v.triangles.point, lane);
-        if (most_beside_ > kMostBeside * distance &&
-            passes_beside(lights_, point, shadow.origin, distance)) [[unlikely]] {
-            const Ray aimed = ray_to_light(lights_, point, shadow, distance, lights.places[lane]);
-            shadows_.add(aimed, path.time, {}, kColorChannels, shown, light_[path.sample]);
-            return;
+        if (most_beside_ > kMostBeside * distance) [[unlikely]] {
+            return add_beside(lane, shadow, shown);
         }
         shadows_.add_outside(shadow, path.time, shown, light_[path.sample]);
     });
@@ -132,6 +128,14 @@ void PathTracer::scatter_lanes() {
     draws_.clear();
     v.triangles.clear();
     in_lanes_ = 0;
+}
+
+void PathTracer::add_beside(std::size_t lane, const Ray& shadow, const Spectrum& shown) {
+    const EyePath& path = *of_lanes_[lane].path;
+    const LightDrawLanes& lights = draws_.results();
+    const Ray aimed = ray_to_light(lights_, vector_of(lanes_.triangles.point, lane), shadow,
+                                   lights.distance[lane], lights.places[lane]);
+    shadows_.add_outside(aimed, path.time, shown, light_[path.sample]);
 }
 
 void PathTracer::scatter_other(std::size_t lane) {

@@ -100,6 +100,8 @@ class PathTracer {
     void fill_lanes();
     /// Draws the random numbers of the lanes.
     void draw_numbers();
+    /// Adds the shadow ray of a lane that may pass beside its points.
+    [[gnu::noinline]] void add_beside(std::size_t lane, const Ray& shadow, const Spectrum& shown);
     /// Sets the values and the sample of a BSDF that is neither matt nor a single rough reflection.
     void scatter_other(std::size_t lane);
     /// Continues a path along the direction of its lane.
