@@ -141,4 +141,10 @@ struct EmitterBounds {
 };
 [[nodiscard]] EmitterBounds bounds_of(const Emitter& emitter);
 
+/// A bound of the rounding of points of an emitter within `box`, and of the tests that find them,
+/// times the margin of LeavingRays: a patch's errs most (docs/design/secondary_rays.md).
+[[nodiscard]] inline double rounding_within(const Box3& box) {
+    return 0x1p-42 * std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+}
+
 }  // namespace alhazen

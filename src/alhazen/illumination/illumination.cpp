@@ -120,6 +120,9 @@ void Illumination::Data::set_choices() {
     for (std::size_t i = 0; i < near_count(); ++i) {
         const TreeLight light = tree_light(i);
         intensity += light.intensity;
+        if (i < emitters.size() && light.intensity > 0.0) {
+            rounding = std::max(rounding, rounding_within(light.bounds.box));
+        }
         near_weights.push_back(options.choice != LightChoice::Uniform ? light.intensity
                                : light.intensity > 0.0                ? 1.0
                                                                       : 0.0);
@@ -160,7 +163,7 @@ void Illumination::Data::set_flat() {
 }
 
 Illumination::Illumination(const Scene& scene, const IlluminationOptions& options)
-    : data_(std::make_unique<const Data>(scene, options)) {}
+    : data_(std::make_unique<const Data>(scene, options)), rounding_(data_->rounding) {}
 Illumination::~Illumination() = default;
 Illumination::Illumination(Illumination&&) noexcept = default;
 Illumination& Illumination::operator=(Illumination&&) noexcept = default;

@@ -140,6 +140,13 @@ class Illumination {
     /// The densities of `emit` for a ray from the light point along `direction` to the point `lit`.
     [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction,
                                            const Vec3& lit) const;
+    /// Largest distance by which rays miss the points of emitting surfaces, of all that they can
+    /// hit: a bound of the rounding of their points and of the tests.
+    [[nodiscard]] double rounding() const { return rounding_; }
+    /// A point outside of that bound of the surface of a light, beside its `point`, on the side of
+    /// `from`; `point` itself of lights without a surface.
+    [[nodiscard]] Vec3 before_surface(const PlaceInLight& place, const Vec3& point,
+                                      const Vec3& from) const;
     /// The density of `draw(at)` for the light point: LightDraw::density, except that invisible
     /// area lights have a density by solid angle.
     [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,
@@ -172,6 +179,7 @@ class Illumination {
     friend class LightDraws;
     struct Data;
     std::unique_ptr<const Data> data_;
+    double rounding_ = 0;
 };
 
 }  // namespace alhazen

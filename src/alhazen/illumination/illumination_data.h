@@ -42,6 +42,7 @@ struct Illumination::Data {
     LightTree tree;         ///< for choice Tree
     LightChooser far;       ///< [of parallel, then environment]
     double near_share = 0;  ///< probability that a near light is chosen
+    double rounding = 0;    ///< Illumination::rounding
     LightChooser sources;   ///< for `emit`, by power
     LightChooser picked;    ///< for `pick`, by power
 

@@ -41,6 +41,16 @@ Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
     return at;
 }
 
+Vec3 Illumination::before_surface(const PlaceInLight& place, const Vec3& point,
+                                  const Vec3& from) const {
+    const Data& d = *data_;
+    if (place.source >= d.emitters.size()) return point;
+    const Emitter& e = d.emitters[place.source];
+    const Vec3 normal = normal_at(e, point, place.parameters);
+    const double away = rounding_within(bounds_of(e).box);
+    return point + (dot(from - point, normal) < 0.0 ? -away : away) * normal;
+}
+
 Spectrum Illumination::irradiance(const PlaceInLight& place, const Vec3& point,
                                   const Wavelengths& waves) const {
     const Light* const light = data_->light_at_point(place.source);

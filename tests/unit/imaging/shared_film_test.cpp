@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -86,17 +87,31 @@ TEST(SharedFilm, TheVarianceIsThatOfASampleTimesTheFiltersSquare) {
     EXPECT_LT(squares / count, 0.7 / kSamples);
 }
 
-TEST(SharedFilm, WhatIsTooLargeIsLeftOut) {
+TEST(SharedFilm, WhatIsNotFiniteIsLeftOut) {
     Film film(kSide, kSide, kCrop);
     SharedFilm shared(*find_filter("tent"), 1.0, kCrop);
     SharedFilm::Spread spread(shared);
-    spread.add({0, 0}, {1e300, 0, 0});
+    spread.add({0, 0}, {std::numeric_limits<double>::infinity(), 0, 0});
     EXPECT_FALSE(shared.add(4, 4, spread));
     spread.add({0, 0}, {0.5, 0.5, 0.5});
     EXPECT_TRUE(shared.add(4, 4, spread));
     shared.write(film);
     EXPECT_EQ(film.at(4, 4), (Rgb{0.5, 0.5, 0.5}));
     EXPECT_EQ(film.at(9, 9), Rgb{});
+}
+
+TEST(SharedFilm, SamplesMayBeOfAnySize) {
+    for (const double size : {0x1p-300, 0x1p50, 0x1p300}) {
+        Film film(kSide, kSide, kCrop);
+        SharedFilm shared(*find_filter("tent"), 1.0, kCrop);
+        SharedFilm::Spread spread(shared);
+        for (const double times : {1.0, 3.0}) {
+            spread.add({0, 0}, {times * size, 0, -times * size});
+            EXPECT_TRUE(shared.add(4, 4, spread));
+        }
+        shared.write(film);
+        EXPECT_EQ(film.at(4, 4), (Rgb{2 * size, 0, -2 * size}));
+    }
 }
 
 }  // namespace

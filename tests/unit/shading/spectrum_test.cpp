@@ -152,6 +152,20 @@ TEST(Illuminants, HaveTheChromaticitiesOfTheStandard) {
     EXPECT_LT(largest_difference(color_of(Illuminant{IlluminantKind::D65, 0, 3}), {3, 3, 3}), 1e-9);
 }
 
+TEST(Illuminants, AColourInTheGamutKeepsItsLuminance) {
+    for (const double kelvin : {500.0, 1000.0, 1800.0}) {
+        const Illuminant body{IlluminantKind::BlackBody, kelvin, 2};
+        EXPECT_LT(color_of(body).b, 0.0) << kelvin;
+        const Rgb shown = color_in_gamut(body);
+        EXPECT_EQ(shown.b, 0.0) << kelvin;
+        EXPECT_GT(shown.r, 0.0) << kelvin;
+        EXPECT_NEAR(luminance_of(shown), 2.0, 1e-12) << kelvin;
+    }
+    const Illuminant warm{IlluminantKind::BlackBody, 2856, 2};
+    EXPECT_EQ(color_in_gamut(warm), color_of(warm));
+    EXPECT_EQ(color_in_gamut({IlluminantKind::BlackBody, 1000, 0}), Rgb{});
+}
+
 TEST(SmoothDielectric, ReflectionAtFourIndicesIsThatOfEachInTheMean) {
     // Any of the four may be the hero: the reflected light and that transmitted for the hero,
     // together.

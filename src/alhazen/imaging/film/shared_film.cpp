@@ -59,9 +59,6 @@ void SharedFilm::Spread::add(const Vec2& offset, const Rgb& sample) {
 }
 
 bool SharedFilm::add(int x, int y, Spread& spread) {
-    const auto summable = [](const Rgb& c) {
-        return std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}) <= FixedSum::kLargest;
-    };
     bool all = true;
     std::size_t k = 0;
     for (int j = y - reach_; j <= y + reach_; ++j) {
@@ -69,17 +66,10 @@ bool SharedFilm::add(int x, int y, Spread& spread) {
             Spread::Sum& sum = spread.sums_[k++];
             const bool inside = i >= crop_.x0 && i < crop_.x1 && j >= crop_.y0 && j < crop_.y1;
             if (inside && sum.weight != 0.0) {
-                // Adds colour and weight together or neither.
-                const bool added = summable(sum.color);
+                Pixel& pixel = pixels_[std::size_t(j - crop_.y0) * std::size_t(crop_.width()) +
+                                       std::size_t(i - crop_.x0)];
+                const bool added = pixel.add({sum.color.r, sum.color.g, sum.color.b, sum.weight});
                 all = all && added;
-                if (added) {
-                    Pixel& pixel = pixels_[std::size_t(j - crop_.y0) * std::size_t(crop_.width()) +
-                                           std::size_t(i - crop_.x0)];
-                    pixel.r.add(sum.color.r);
-                    pixel.g.add(sum.color.g);
-                    pixel.b.add(sum.color.b);
-                    pixel.weight.add(sum.weight);
-                }
             }
             sum = {};
         }
@@ -91,10 +81,9 @@ void SharedFilm::write(Film& film) const {
     std::size_t k = 0;
     for (int j = crop_.y0; j < crop_.y1; ++j) {
         for (int i = crop_.x0; i < crop_.x1; ++i) {
-            const Pixel& pixel = pixels_[k++];
-            const double weight = pixel.weight.value();
+            const auto [r, g, b, weight] = pixels_[k++].value();
             if (!(weight > 0.0)) continue;
-            film.set(i, j, (1.0 / weight) * Rgb{pixel.r.value(), pixel.g.value(), pixel.b.value()});
+            film.set(i, j, (1.0 / weight) * Rgb{r, g, b});
         }
     }
 }

@@ -4,7 +4,7 @@
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 3rd edition, 2016, section 7.8
 /// (the weighted mean).
-/// Differs: sums are exact (fixed_sum.h), so that the order of the samples does not matter. If
+/// Differs: sums are exact (binned_sum.h), so that the order of the samples does not matter. If
 /// samples differ by chance only, the variance of a pixel is that with its own samples only times
 /// the integral of the square of the filter (whose own integral is 1).
 /// Conventions: the expected picture is that of samples drawn by the filter (filter_kernel.h), to
@@ -15,9 +15,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "alhazen/imaging/film/binned_sum.h"
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/imaging/film/filter_kernel.h"
-#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/math/vec.h"
 
 namespace alhazen {
@@ -46,17 +46,15 @@ class SharedFilm {
         std::vector<Sum> sums_;             ///< [row][column] around the pixel
         std::vector<double> column_, row_;  ///< the kernel at one sample
     };
-    /// Adds the samples of pixel (x, y) and clears `spread`. False if a sum is too large and
-    /// therefore left out.
+    /// Adds the samples of pixel (x, y) and clears `spread`. False if a sum is not finite
+    /// and therefore left out.
     bool add(int x, int y, Spread& spread);
 
     /// Writes all pixels that samples reach. Not to be called during `add`.
     void write(Film& film) const;
 
   private:
-    struct Pixel {
-        FixedSum r, g, b, weight;
-    };
+    using Pixel = BinnedSum<4>;  ///< of the colour and the weight
 
     /// The kernel at a distance along one axis, from a table; its scale is arbitrary.
     [[nodiscard]] double kernel(double distance) const;

@@ -202,8 +202,9 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     if (light.is_black()) return;
     FreeFlight flight;
     const Spectrum passing =
-        joins_.passing(v.leaving(drawn.to_light, kBeforeEnd * drawn.distance), time,
-                       v.media_along(drawn.to_light, behind_), waves_, &flight);
+        joins_.passing(ray_to_light(lights_, v.point(), v.leaving(drawn.to_light, drawn.distance),
+                                    drawn.distance, drawn.place),
+                       time, v.media_along(drawn.to_light, behind_), waves_, &flight);
     if (passing.is_black()) return;
     LightEnd end;
     const double away = std::isfinite(drawn.distance) ? drawn.distance : 0.0;
@@ -236,8 +237,10 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     const RayKind kind = z.kind_along(to_y);
     if ((y.seen_by & mask_of(kind)) == 0) return;
     FreeFlight flight;
-    const Spectrum passing = joins_.between(z.leaving(to_y, kBeforeEnd * distance), time, kind,
-                                            z.media_along(to_y, behind_), waves_, &flight);
+    const Ray ray = ray_between(z.point(), z.leaving(to_y, distance), y.point(),
+                                y.leaving(to_z, distance), distance);
+    const Spectrum passing =
+        joins_.between(ray, time, kind, z.media_along(to_y, behind_), waves_, &flight);
     if (passing.is_black()) return;
     begin_path(a, b);
     of_light(a - 1).from_eye =

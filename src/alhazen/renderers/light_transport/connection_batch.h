@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/connecting_rays.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
@@ -18,10 +19,6 @@
 #include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
-
-/// The end of a ray between two points, as a part of their distance, so that the surface of the
-/// other point does not block it.
-inline constexpr double kBeforeEnd = 1.0 - 1e-7;
 
 class ConnectionBatch {
   public:

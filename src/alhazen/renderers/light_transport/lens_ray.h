@@ -3,7 +3,7 @@
 
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
-#include "alhazen/renderers/light_transport/connection_batch.h"
+#include "alhazen/renderers/light_transport/connecting_rays.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 
 namespace alhazen {

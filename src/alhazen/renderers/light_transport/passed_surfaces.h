@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
-#include "alhazen/renderers/light_transport/connection_batch.h"
+#include "alhazen/renderers/light_transport/connecting_rays.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {

@@ -36,9 +36,8 @@ bool SplatFilm::add(const Vec2& place, const Rgb& light) {
             const double share = kernel(x - i - 0.5) * kernel(y - j - 0.5);
             Sum& sum = sums_[std::size_t(j - crop_.y0) * std::size_t(crop_.width()) +
                              std::size_t(i - crop_.x0)];
-            const bool r = sum.r.add(share * light.r), g = sum.g.add(share * light.g),
-                       b = sum.b.add(share * light.b);
-            finite = finite && r && g && b;
+            const bool added = sum.add({share * light.r, share * light.g, share * light.b});
+            finite = finite && added;
         }
     }
     return finite;
@@ -49,9 +48,8 @@ void SplatFilm::add_to(Film& film, double paths) const {
     std::size_t k = 0;
     for (int j = crop_.y0; j < crop_.y1; ++j) {
         for (int i = crop_.x0; i < crop_.x1; ++i) {
-            const Sum& sum = sums_[k++];
-            film.set(i, j,
-                     film.at(i, j) + scale * Rgb{sum.r.value(), sum.g.value(), sum.b.value()});
+            const auto [r, g, b] = sums_[k++].value();
+            film.set(i, j, film.at(i, j) + scale * Rgb{r, g, b});
         }
     }
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "alhazen/imaging/film/binned_sum.h"
 #include "alhazen/imaging/film/film.h"
-#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 
@@ -23,9 +23,7 @@ class SplatFilm {
     void add_to(Film& film, double paths) const;
 
   private:
-    struct Sum {
-        FixedSum r, g, b;
-    };
+    using Sum = BinnedSum<3>;
     [[nodiscard]] double kernel(double offset) const;
 
     const FilterEntry& filter_;

@@ -304,14 +304,15 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     Vec3 direction = chain_.direction;
     RayKind ray_kind =
         dot(direction, at_->scatter.geometric()) < 0.0 ? RayKind::Refraction : RayKind::Reflection;
-    const auto pass = [&](const MediumStack& in, double distance) {
-        share = share * shadows_.between(leaving_ray(*from, direction, kBeforeEnd * distance),
-                                         at_->time, ray_kind, in, at_->waves, nullptr);
+    const auto pass = [&](const MediumStack& in, const Ray& ray) {
+        share = share * shadows_.between(ray, at_->time, ray_kind, in, at_->waves, nullptr);
         return !share.is_black();
     };
     for (int i = 0; i < chain_.length(); ++i) {
         const ChainVertex& v = chain_.at[static_cast<std::size_t>(i)];
-        if (!pass(media, v.travelled)) return {};
+        const Ray ray = ray_between(from->point, leaving_ray(*from, direction), v.surface.point,
+                                    leaving_ray(v.surface, -direction), v.travelled);
+        if (!pass(media, ray)) return {};
         from = &v.surface;
         direction = v.leaving;
         ray_kind = refracts(chain_.kind) ? RayKind::Refraction : RayKind::Reflection;
@@ -324,7 +325,9 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
         end_.infinite ? std::numeric_limits<double>::infinity() : length(end_.at - from->point);
     // Rays along the chain find the light if they can hit it.
     if (!pick_.is_hit) ray_kind = RayKind::Shadow;
-    if (!pass(last, rest)) return {};
+    const Ray ray = ray_to_light(manifold_.lights, from->point, leaving_ray(*from, direction), rest,
+                                 pick_.place);
+    if (!pass(last, ray)) return {};
     return share;
 }
 

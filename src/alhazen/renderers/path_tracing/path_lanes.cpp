@@ -115,15 +115,27 @@ void PathTracer::scatter_lanes() {
     v.weigh(lights);
     for_each_lane(v.lit, [&](std::size_t lane) {
         const EyePath& path = *of_lanes_[lane].path;
+        const double distance = lights.distance[lane];
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
-                         LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
+                         LeavingRays::kBeyondZero, kBeforeEnd * distance};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
+        if (most_beside_ > kMostBeside * distance) [[unlikely]] {
+            return add_beside(lane, shadow, shown);
+        }
         shadows_.add_outside(shadow, path.time, shown, light_[path.sample]);
     });
     for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
     draws_.clear();
     v.triangles.clear();
     in_lanes_ = 0;
+}
+
+void PathTracer::add_beside(std::size_t lane, const Ray& shadow, const Spectrum& shown) {
+    const EyePath& path = *of_lanes_[lane].path;
+    const LightDrawLanes& lights = draws_.results();
+    const Ray aimed = ray_to_light(lights_, vector_of(lanes_.triangles.point, lane), shadow,
+                                   lights.distance[lane], lights.places[lane]);
+    shadows_.add_outside(aimed, path.time, shown, light_[path.sample]);
 }
 
 void PathTracer::scatter_other(std::size_t lane) {

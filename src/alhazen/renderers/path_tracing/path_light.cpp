@@ -146,7 +146,9 @@ void PathTracer::add_direct_light(const Vertex& vertex, const LightDraw& drawn, 
         behind_ = path.media;
         scatter.cross(behind_);
     }
-    const Ray shadow = vertex.leaving->along(drawn.to_light, kBeforeEnd * drawn.distance);
+    const Ray shadow =
+        ray_to_light(lights_, vertex.place, vertex.leaving->along(drawn.to_light, drawn.distance),
+                     drawn.distance, drawn.place);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);
     Spectrum& to = waiting != nullptr ? *waiting

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "alhazen/illumination/emitter.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
@@ -31,6 +32,8 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
       escapes_later_(uses_lanes_ && lights.has_sky_picture()),
       plain_(scene_),
+      // LeavingRays at triangles: four times that bound at their largest coordinate, at most.
+      most_beside_(lights.rounding() + 4.0 * rounding_within(scene_.aggregate->box())),
       draws_(lights),
       faces_(scene_),
       media_(scene_),
@@ -288,7 +291,8 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= weights_.of_shadow_ray(drawn.density, phase);
-        const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
+        const Ray to_light = ray_to_light(lights_, ray.origin, {ray.origin, drawn.to_light},
+                                          drawn.distance, drawn.place);
         const Spectrum shown =
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
         Spectrum* const waiting = record_shadow(path, to_light, shown);

@@ -100,6 +100,8 @@ class PathTracer {
     void fill_lanes();
     /// Draws the random numbers of the lanes.
     void draw_numbers();
+    /// Adds the shadow ray of a lane that may pass beside its points.
+    [[gnu::noinline]] void add_beside(std::size_t lane, const Ray& shadow, const Spectrum& shown);
     /// Sets the values and the sample of a BSDF that is neither matt nor a single rough reflection.
     void scatter_other(std::size_t lane);
     /// Continues a path along the direction of its lane.
@@ -222,6 +224,7 @@ class PathTracer {
     bool escapes_later_;                  ///< paths wait in `escaped_`
     std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
+    double most_beside_;  ///< bound of what `passes_beside` compares, for plain vertices
     VertexLanes lanes_;
     RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;

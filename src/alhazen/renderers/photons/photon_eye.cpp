@@ -275,8 +275,9 @@ void PhotonEye::add_shadow_ray(const Branch& branch, double choice, const Vec2& 
     if (other > kGlossyDensity) weight *= weights_.of_shadow_ray(drawn.density, other);
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
-    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 media, waves, path.throughput * (weight * light), direct);
+    const Ray shadow = ray_to_light(lights_, at.point, leaving_ray(point.surface, drawn.to_light),
+                                    drawn.distance, drawn.place);
+    shadows_.add(shadow, path.time, media, waves, path.throughput * (weight * light), direct);
 }
 
 PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double choice,
@@ -284,8 +285,9 @@ PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double cho
     const LightDraw drawn = lights_.draw(LitPoint::inside_volume(at.point), choice, place, waves);
     if (!(drawn.density > 0.0)) return {};
     const double phase = henyey_greenstein(dot(at.along, drawn.to_light), at.anisotropy);
-    return {(phase / drawn.density) * drawn.radiance,
-            {at.point, drawn.to_light, 0.0, kBeforeEnd * drawn.distance}};
+    return {
+        (phase / drawn.density) * drawn.radiance,
+        ray_to_light(lights_, at.point, {at.point, drawn.to_light}, drawn.distance, drawn.place)};
 }
 
 void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& path,

@@ -23,6 +23,10 @@ inline constexpr double kShortestWave = 380.0, kLongestWave = 780.0;
 [[nodiscard]] Rgb response(double nm);
 /// Luminance response; the luminance of white is 1.
 [[nodiscard]] double luminance_response(double nm);
+/// The luminance of a colour.
+[[nodiscard]] inline double luminance_of(const Rgb& color) {
+    return 0.2126729 * color.r + 0.7151522 * color.g + 0.0721750 * color.b;
+}
 
 /// A wavelength sampled by `u` in [0, 1), with the density of the sum of the absolute channels of
 /// white light's response.

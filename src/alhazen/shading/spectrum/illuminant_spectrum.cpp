@@ -1,5 +1,6 @@
 #include "alhazen/shading/spectrum/illuminant_spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/shading/spectrum/color_matching.h"
@@ -69,6 +70,13 @@ double radiance_of(const Illuminant& illuminant, double nm) {
 
 Rgb color_of(const Illuminant& illuminant) {
     return (illuminant.scale / luminance_of(illuminant)) * integral(illuminant, response);
+}
+
+Rgb color_in_gamut(const Illuminant& illuminant) {
+    const Rgb color = color_of(illuminant);
+    const Rgb positive{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)};
+    if (positive == color) return color;
+    return (illuminant.scale / luminance_of(positive)) * positive;
 }
 
 }  // namespace alhazen

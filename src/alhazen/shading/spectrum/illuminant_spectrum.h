@@ -14,5 +14,7 @@ namespace alhazen {
 
 /// Linear sRGB colour. Channels below 0 (lights outside the gamut, redder than sRGB) are kept.
 [[nodiscard]] Rgb color_of(const Illuminant& illuminant);
+/// A colour without negative channels, of the same luminance; `color_of` if that has none.
+[[nodiscard]] Rgb color_in_gamut(const Illuminant& illuminant);
 
 }  // namespace alhazen

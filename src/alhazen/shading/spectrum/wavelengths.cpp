@@ -58,8 +58,7 @@ Spectrum Wavelengths::lifted_of_any_size(const Rgb& c) const {
 }
 
 Spectrum Wavelengths::spectrum_of(const Illuminant& illuminant, const Rgb& color) const {
-    const double luminance = 0.2126729 * color.r + 0.7151522 * color.g + 0.0721750 * color.b;
-    const Illuminant scaled{illuminant.kind, illuminant.kelvin, luminance};
+    const Illuminant scaled{illuminant.kind, illuminant.kelvin, luminance_of(color)};
     return at_each(nm_, [&](double nm) { return radiance_of(scaled, nm); });
 }
 

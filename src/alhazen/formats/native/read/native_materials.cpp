@@ -1,6 +1,5 @@
 #include "alhazen/formats/native/read/native_materials.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -274,9 +273,7 @@ void read_illuminant(TextNode value, NativeContext& context, Material& m) {
     if (count == 2 && !values.read(*++argument, kKey, light.scale)) return;
     if (!(light.scale >= 0.0)) return (void)values.fail(value, kKey, expected);
     m.illuminant = light;
-    const Rgb color = color_of(light);
-    m.emission = {{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)},
-                  kNoTexture};
+    m.emission = {color_in_gamut(light), kNoTexture};
 }
 
 void read_emission_of_material(BlockReader& reader, NativeContext& context, Material& m) {
