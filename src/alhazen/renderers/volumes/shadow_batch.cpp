@@ -163,11 +163,12 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
                  path.absorption, volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
-    double met = -min_distance;  // the last crossing that counts
-    bool in_wall = false;        // between the two crossings of a wall, which are one boundary
+    double met = -min_distance;  // the last surface that tints
+    bool tints = true;
+    bool in_wall = false;  // between the two crossings of a wall, which are one boundary
     for (const Hit& hit : crossings_) {
-        if (!in_wall && hit.t - met < min_distance) continue;
-        met = hit.t;
+        if (!in_wall) tints = !(hit.t - met < min_distance);
+        if (tints) met = hit.t;
         const Surface& surface = crossed(ray, hit, path.time);
         const MaterialSample* material = &material_of(surface);
         if (material->coverage == 0.0) continue;
@@ -189,16 +190,16 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(*material)) continue;
         const Crossing crossing = cross(scene_.conventions.shading, surface, *material, *medium,
-                                        leaving, closed, met - last, volumes_);
+                                        leaving, closed, hit.t - last, volumes_);
         tint = tint * crossing.way;
-        Rgb through = crossing.surface;
+        Rgb through = tints ? crossing.body * crossing.surface : crossing.body;
         if (material->coverage < 1.0) {
             const double open = 1.0 - material->coverage;
             through = Rgb{open, open, open} + material->coverage * through;
         }
         tint = tint * through;
         if (tint.is_black()) return tint;
-        if (!medium->physical || !medium->thin) last = met;
+        if (!medium->physical || !medium->thin) last = hit.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * volumes_.through(ray.t_max - last);
     return tint;
@@ -220,16 +221,13 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     std::uint32_t medium =
         scene_.has_masks ? optics_->seen_by_shadow_rays(path.medium) : path.medium;
     double last = 0.0, met = -min_distance;
+    bool tints = true;
     bool in_wall = false;  // between the two crossings of a wall, which are one boundary
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
-        if (!in_wall && crossing.t - met < min_distance) {
-            // A face that was crossed with the last one is over, however near it is.
-            if (!together_.empty()) (void)crossed_already(crossed(ray, crossing, path.time));
-            continue;
-        }
-        met = crossing.t;
+        if (!in_wall) tints = !(crossing.t - met < min_distance);
+        if (tints) met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
         in_wall = surface.media.before && surface.media.after && !in_wall;
         if (!in_wall && surface.media.before && surface.media.after) continue;
@@ -250,6 +248,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         auto [through, behind] =
             optics_->cross(surface, material, ray.direction, medium, together_);
         if (scene_.conventions.shading.shadow_tint == ShadowTint::Opaque) through = {};
+        if (!tints) through = {1, 1, 1};
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *
                transmittance(optics_->absorption(medium), crossing.t - last);
