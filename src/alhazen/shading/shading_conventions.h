@@ -81,8 +81,8 @@ struct ShadingConventions {
 
     double air_index = 1.0003;
 
-    /// Smallest distance of a hit from the surface where a ray starts; also applied after a shadow
-    /// ray passes through a surface.
+    /// Smallest distance of a hit from the surface where a ray starts. A shadow ray that passes
+    /// through a surface is not tinted by nearer ones, but enters and leaves their volumes.
     double min_distance = 0.0;
 
     /// Maximum depth of recursion: 0 = eye rays only.

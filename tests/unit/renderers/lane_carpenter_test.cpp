@@ -430,6 +430,34 @@ TEST(LaneCarpenter, CracksShowUnlessTheyAreClosed) {
     EXPECT_EQ(ground_pixels(maker, Cracks::Clark, 20, none), 0);
 }
 
+TEST(LaneCarpenter, TheToleranceThatClosesCracksDoesNotDependOnTheCrop) {
+    constexpr int kSize = 8;
+    BezierPatch folded;
+    folded.degree_u = folded.degree_v = 2;
+    folded.points = {{0.4, 0.7, 0.9},  {1.3, 0.7, 1.3},   {-1.4, -0.1, 1.3},
+                     {0.4, 1.2, -1.2}, {-0.1, -0.8, 0.1}, {0.2, -1.5, -0.8},
+                     {-0.7, 1.2, 0.8}, {-1.0, 0.9, -1.1}, {0.4, -1.1, -1.5}};
+    SceneMaker maker;
+    maker.add(std::move(folded), MaterialId{0});
+    maker.light(PointLight{.position = {3, 4, 6}});
+    const Scene scene = maker.compile();
+    const OrthographicCamera camera{{0, 0, 6}, {0, 0, -1}, {3, 0, 0}, {0, 3, 0}};
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    ScanLineOptions options;
+    options.cracks = Cracks::Tighter;
+    Film whole(kSize, kSize, {0, 0, kSize, kSize});
+    const RenderReport report = LaneCarpenter(options).render(job, whole);
+    ASSERT_GT(report.scan_lines->passes, 1u);
+    for (const PixelBox& box : {PixelBox{0, 0, 8, 4}, PixelBox{0, 4, 8, 8}, PixelBox{2, 2, 4, 3}}) {
+        Film crop(kSize, kSize, box);
+        const auto counts = LaneCarpenter(options).render(job, crop).scan_lines;
+        EXPECT_EQ(counts->flatness, report.scan_lines->flatness);
+        for (int y = box.y0; y < box.y1; ++y) {
+            for (int x = box.x0; x < box.x1; ++x) EXPECT_EQ(crop.at(x, y), whole.at(x, y));
+        }
+    }
+}
+
 TEST(LaneCarpenter, PatchesThroughTheEyePlaneAreCut) {
     SceneMaker maker;
     maker.add(Sphere{.radius = 2}, maker.material(glowing({1, 1, 0})));

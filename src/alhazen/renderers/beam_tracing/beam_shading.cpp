@@ -194,7 +194,7 @@ Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample&
         const bool leaving = dot(ray.direction, between_.normal) >= 0.0;
         const Crossing crossing = cross(conventions_, between_, material, material, leaving,
                                         is_closed(between_), t - last, volumes_);
-        result = result * crossing.way * crossing.surface;
+        result = result * crossing.way * crossing.body * crossing.surface;
         if (!material.physical || !material.thin) last = t;
     }
     return std::isfinite(ray.t_max) ? result * volumes_.through(ray.t_max - last) : result;

@@ -4,12 +4,12 @@
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 3 (a list of the closest
 /// few objects); adding pieces that abut is his remedy against seams.
 /// Differs: an object is a surface: faces and triangles that share edges, on one side. Pieces of
-/// one surface lie beside each other until they cover the cone; further ones are hidden, or, if the
-/// surface has alpha, a layer behind it, which is seen as far as the layers before it let light
-/// through. Both sides of a closed solid with alpha are layers of one surface. Different surfaces
-/// are treated as independent, so that the remainder of the cone is the product of their
-/// remainders. The closest eight surfaces are distinguished; all others share the last entry. If a
-/// layer has many pieces, only a few are shaded, evenly distributed over their coverage.
+/// one surface lie beside each other until they cover the cone; further ones are a layer behind it,
+/// which is seen as far as the layers before it let light through. Both sides of a closed solid
+/// with alpha are layers of one surface. Different surfaces are treated as independent, so that the
+/// remainder of the cone is the product of their remainders. The closest eight surfaces are
+/// distinguished; all others share the last entry. If a layer has many pieces, only a few are
+/// shaded, evenly distributed over their coverage.
 
 #include <algorithm>
 #include <array>
@@ -28,8 +28,6 @@ namespace alhazen {
 struct SurfaceShare {
     std::uint32_t surface = 0;  ///< ConeSource::surface
     bool front = true;          ///< its side
-    /// Parts behind a full layer are seen through it; else they are hidden.
-    bool layered = false;
     /// Its other side lies behind it or before it: of a closed solid with alpha.
     bool two_sided = false;
     bool within = false;  ///< the cone starts inside it
@@ -145,7 +143,7 @@ class ConeSurfaces {
             layer.covered += here;
             layer.through += here * ((1.0 - part.coverage) * kAll + part.coverage * tint);
             rest -= here;
-            if (!part.layered || !(rest > kLeastRest)) return seen;
+            if (!(rest > kLeastRest)) return seen;
             // The layer is full: the rest lies behind it.
             one.before = one.before * one.layers[0].mean() * one.layers[1].mean();
             if (!(largest(one.before) > 0.0)) return seen;

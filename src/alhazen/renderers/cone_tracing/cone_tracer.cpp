@@ -146,12 +146,8 @@ bool ConeTracer::gather(const ConeRay& cone, const ConePath& path, int depth,
 
 SurfaceShare ConeTracer::share_of(const ConePiece& piece, const ConeStart& start) const {
     const ConeSource& source = geometry_.sources[piece.source];
-    return {source.surface,
-            piece.front,
-            source.has_alpha,
-            source.closed && source.has_alpha,
-            start.is_inside(piece.source),
-            piece.share};
+    return {source.surface, piece.front, source.closed && source.has_alpha,
+            start.is_inside(piece.source), piece.share};
 }
 
 ConeTracer::Seen ConeTracer::seen_at(const ConePiece& piece, const ConeRay& cone,

@@ -177,29 +177,8 @@ class PixelLoop {
     std::vector<Vec2> places_;  ///< film coordinates of a pixel's samples
 };
 
-/// Renders tiles by PixelLoop.
-template <PixelSampler Sampler, RadianceEstimator Estimator, PixelFilter Filter>
-class PixelRenderer final : public TileRenderer {
-  public:
-    /// `more`: further arguments of the estimator.
-    template <class... More>
-    PixelRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
-        : estimator_(job, rays_at_once, counters_, more...), loop_(job, rays_at_once, counters_) {}
-
-    void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
-        loop_.run(tile, film, estimator_);
-        counters += counters_;
-        counters_ = {};
-    }
-
-  private:
-    RayCounters counters_;  ///< of the tile
-    Estimator estimator_;
-    PixelLoop<Sampler, Filter> loop_;
-};
-
-/// Returns a RoundRenderer if the job has a round, else a PixelRenderer with the sampler for the
-/// job's samples per pixel and the box filter.
+/// Returns a RoundRenderer if the job has a round, else that of a PixelLoop with the sampler for
+/// the job's samples per pixel and the box filter.
 template <RadianceEstimator Estimator, class... More>
 [[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
                                                                 std::size_t rays_at_once,
@@ -208,11 +187,11 @@ template <RadianceEstimator Estimator, class... More>
         return std::make_unique<RoundRenderer<Estimator>>(job, rays_at_once, more...);
     }
     if (job.samples_per_pixel == 1) {
-        return std::make_unique<PixelRenderer<PointSampler, Estimator, BoxFilter>>(
-            job, rays_at_once, more...);
+        using Loop = PixelLoop<PointSampler, BoxFilter>;
+        return std::make_unique<LoopRenderer<Estimator, Loop>>(job, rays_at_once, more...);
     }
-    return std::make_unique<PixelRenderer<JitteredSampler, Estimator, BoxFilter>>(job, rays_at_once,
-                                                                                  more...);
+    using Loop = PixelLoop<JitteredSampler, BoxFilter>;
+    return std::make_unique<LoopRenderer<Estimator, Loop>>(job, rays_at_once, more...);
 }
 
 }  // namespace alhazen

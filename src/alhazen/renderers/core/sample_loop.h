@@ -214,13 +214,13 @@ class SampleLoop {
     std::vector<Vec2> places_;  ///< film coordinates of gathered samples; only with AOVs
 };
 
-/// Renders a round of tiles by SampleLoop.
-template <class Estimator>
-class RoundRenderer final : public TileRenderer {
+/// Renders tiles by a loop over their pixels: a SampleLoop or a PixelLoop.
+template <class Estimator, class Loop>
+class LoopRenderer final : public TileRenderer {
   public:
     /// `more`: further arguments of the estimator.
     template <class... More>
-    RoundRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
+    LoopRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
         : estimator_(job, rays_at_once, counters_, more...), loop_(job, rays_at_once, counters_) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
@@ -232,7 +232,11 @@ class RoundRenderer final : public TileRenderer {
   private:
     RayCounters counters_;  ///< of the tile
     Estimator estimator_;
-    SampleLoop loop_;
+    Loop loop_;
 };
+
+/// Renders a round of tiles.
+template <class Estimator>
+using RoundRenderer = LoopRenderer<Estimator, SampleLoop>;
 
 }  // namespace alhazen

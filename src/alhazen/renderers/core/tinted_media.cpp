@@ -43,7 +43,7 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
     }
     if (medium.physical && medium.thin) return result;
     if (by_distance && leaving && (closed || volumes.empty())) {
-        result.surface = power(medium.transmissive, length);
+        result.body = power(medium.transmissive, length);
     } else {
         result.way = volumes.through(length);
     }

@@ -129,9 +129,10 @@ class TintedMedia {
 [[nodiscard]] Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point,
                              bool closed, const TintedMedia& media, std::uint32_t around, double t);
 
-/// The transmittances of a surface crossed without bending, and of the way to it.
+/// The transmittances of a surface crossed without bending, of the way to it, and of the way inside
+/// the body that is left there, where kt acts by distance.
 struct Crossing {
-    Rgb way{1, 1, 1}, surface{1, 1, 1};
+    Rgb way{1, 1, 1}, body{1, 1, 1}, surface{1, 1, 1};
 };
 /// Crosses `surface` of `material`, at which the volume of `medium` is entered or left, `length`
 /// behind the last crossing. `closed`: it bounds a volume.

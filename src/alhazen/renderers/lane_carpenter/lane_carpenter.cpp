@@ -64,7 +64,13 @@ RenderReport LaneCarpenter::render(const RenderJob& job, Film& film) const {
     ScanLineReport cracks;
     const bool finds = options.cracks == Cracks::Tighter ||
                        (options.find_cracks && options.cracks == Cracks::Show);
-    if (finds && !grid.several()) tighten(scene, view, grid, job, options, cracks);
+    if (finds && !grid.several()) {
+        // The tolerance does not depend on the crop.
+        const PixelBox whole{0, 0, film.frame_width(), film.frame_height()};
+        const bool tightens = options.cracks == Cracks::Tighter;
+        tighten(scene, view, SampleGrid(job, film, tightens ? whole : film.crop(), view), job,
+                options, cracks);
+    }
     ScanLines lines(scene, view, grid, options);
     clear_costs(job, film.crop());
     RenderReport report;

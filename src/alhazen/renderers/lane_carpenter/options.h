@@ -6,7 +6,7 @@ namespace alhazen {
 /// Treatment of the gaps between parts of different subdivision.
 enum class Cracks {
     Show,     ///< left as they are
-    Tighter,  ///< halve the tolerance until no sample lies in one
+    Tighter,  ///< halve the tolerance until no sample of the frame lies in one
     Clark,    ///< a straight edge stays straight, which avoids gaps
 };
 

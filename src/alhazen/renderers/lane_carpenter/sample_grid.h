@@ -24,7 +24,10 @@ struct IndexRange {
 class SampleGrid {
   public:
     SampleGrid(const RenderJob& job, const Film& film, const ScreenView& view)
-        : crop_(film.crop()),
+        : SampleGrid(job, film, film.crop(), view) {}
+    /// The samples of any crop of the frame of `film`.
+    SampleGrid(const RenderJob& job, const Film& film, const PixelBox& crop, const ScreenView& view)
+        : crop_(crop),
           view_(view),
           point_(job, film.frame_width(), film.frame_height()),
           jitter_(job, film.frame_width(), film.frame_height()),

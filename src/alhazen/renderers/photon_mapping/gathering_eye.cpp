@@ -105,8 +105,9 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
     along_ = *at.path.waves;
     path.waves = &along_;
     Spectrum sum;
-    std::uint64_t event = 0;  // also counts surfaces that are passed straight
-    for (int surface = 0; surface < settings_.depth; ++surface, ++event) {
+    int scatterings = 0;
+    // Events are also surfaces that are passed straight.
+    for (std::uint64_t event = 0; scatterings < settings_.depth; ++event) {
         const std::uint64_t first = 3 * event;
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) return sum;
@@ -136,7 +137,8 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
         if (!drawn || !drawn->singular || drawn->weight.is_black()) return sum;
         if (drawn->straight) {
             if (path.met > kMaxPassedSurfaces) return sum;
-            --surface;
+        } else {
+            ++scatterings;
         }
         NextSurface::go_on(path, point.surface, met_, *drawn);
         if (drawn->dispersed) along_.keep_hero(path.throughput);

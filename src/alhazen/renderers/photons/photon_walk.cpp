@@ -122,10 +122,11 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     Spectrum begun = path.throughput;
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
-    bool scattered = false;
+    int scatterings = 0;
     std::uint64_t event = 0;  // also counts thin sheets that are passed straight
-    for (int surface = 0; surface < shot_.depth; ++surface, ++event) {
+    while (scatterings < shot_.depth) {
         const std::uint64_t first = kAtEach * event;
+        const bool scattered = scatterings > 0;
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) return true;
         const bool by_density = scattered || first_segment != FirstSegment::Hit;
@@ -137,8 +138,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             kind = PhotonKind::Indirect;
             path.throughput = fall * path.throughput;
             begun = fall * begun;
-            scattered = true;
             fall = Spectrum::all(1);
+            ++scatterings;
+            ++event;
             next_.go_on_in_volume(path, {numbers.at(first + 1), numbers.at(first + 2)});
             if (!survives_roulette(path, begun, numbers, first + 3)) return true;
             continue;
@@ -152,10 +154,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             if (path.passed || path.met > kMaxPassedSurfaces) return true;
             NextSurface::go_on(path, point.surface, scatter_,
                                *scatter_.sample(0.0, {}, Transport::Importance));
-            --surface;
-            --event;
             continue;
         }
+        ++event;
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         const RayMask seen_by = next_.seen_by();
         if (by_density && scatter_.has_density() && (seen_by & kRaysOfPaths) != 0) {
@@ -167,10 +168,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         if (!drawn || drawn->weight.is_black()) return true;
         const bool by_singular = scattered || first_segment != FirstSegment::Connected;
         if (path.passed && (drawn->straight || drawn->singular)) return true;
-        if (drawn->straight) {
-            if (path.met > kMaxPassedSurfaces) return true;
-            --surface;
-        }
+        if (drawn->straight && path.met > kMaxPassedSurfaces) return true;
         if (!drawn->straight && !(drawn->singular ? by_singular : by_density)) return true;
         const RayKind kind_of_next = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
         if (!drawn->straight && (seen_by & mask_of(kind_of_next)) == 0) return true;
@@ -183,8 +181,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             }
             path.throughput = fall * path.throughput;
             begun = fall * begun;
-            scattered = true;
             fall = Spectrum::all(1);
+            ++scatterings;
         }
         const double turned = scatter_.importance_correction(drawn->direction);
         NextSurface::go_on(path, point.surface, scatter_, *drawn);

@@ -164,11 +164,12 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
                  path.absorption, volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
-    double met = -min_distance;  // the last crossing that counts
-    bool in_wall = false;        // between the two crossings of a wall, which are one boundary
+    double met = -min_distance;  // the last surface that tints
+    bool tints = true;
+    bool in_wall = false;  // between the two crossings of a wall, which are one boundary
     for (const Hit& hit : crossings_) {
-        if (!in_wall && hit.t - met < min_distance) continue;
-        met = hit.t;
+        if (!in_wall) tints = !(hit.t - met < min_distance);
+        if (tints) met = hit.t;
         const Surface& surface = crossed(ray, hit, path.time);
         const MaterialSample* material = &material_of(surface);
         if (material->coverage == 0.0) continue;
@@ -190,16 +191,16 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(*material)) continue;
         const Crossing crossing = cross(scene_.conventions.shading, surface, *material, *medium,
-                                        leaving, closed, met - last, volumes_);
+                                        leaving, closed, hit.t - last, volumes_);
         tint = tint * crossing.way;
-        Rgb through = crossing.surface;
+        Rgb through = tints ? crossing.body * crossing.surface : crossing.body;
         if (material->coverage < 1.0) {
             const double open = 1.0 - material->coverage;
             through = Rgb{open, open, open} + material->coverage * through;
         }
         tint = tint * through;
         if (tint.is_black()) return tint;
-        if (!medium->physical || !medium->thin) last = met;
+        if (!medium->physical || !medium->thin) last = hit.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * volumes_.through(ray.t_max - last);
     return tint;
@@ -216,14 +217,14 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
-        if (crossing.t - met < min_distance) continue;
-        met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
         const std::uint64_t number = volume_number(surface);
         if (crossing.t <= together_to &&
             std::find(together_.begin(), together_.end(), number) != together_.end()) {
             continue;
         }
+        const bool tints = !(crossing.t - met < min_distance);
+        if (tints) met = crossing.t;
         const bool wall = is_wall(surface);
         if (wall) medium_ = medium_at(scene_, surface, *surface.media.after);
         const MaterialSample& material = wall ? medium_ : material_of(surface);
@@ -240,6 +241,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         together_to = crossing.t + 2.0 * reach;
         auto [through, behind] = optics_->cross(surface, material, ray.direction, medium, others_);
         if (scene_.conventions.shading.shadow_tint == ShadowTint::Opaque) through = {};
+        if (!tints) through = {1, 1, 1};
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *
                transmittance(optics_->absorption(medium), crossing.t - last);

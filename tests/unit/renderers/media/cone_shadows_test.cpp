@@ -272,6 +272,68 @@ TEST(ConeShadows, WallsOfAMeshTintByTheirVertexColours) {
     expect_both(maker, kBesides, {}, grey(0.25));
 }
 
+Material absorbing() {
+    Material material;
+    material.dielectric = Dielectric{{0.5, 0.2, 0.1}};
+    material.index.value = 1;
+    return material;
+}
+/// Adds two blocks of unit thickness above each other, as boxes that share edges or as one mesh.
+void add_blocks(SceneMaker& maker, const Material& lower, const Material& upper, bool as_mesh) {
+    if (!as_mesh) {
+        maker.add(BoxShape{{-1, -1, 1}, {1, 1, 2}}, maker.material(lower));
+        maker.add(BoxShape{{-1, -1, 2}, {1, 1, 3}}, maker.material(upper));
+        return;
+    }
+    TriangleMesh both = prism(1);
+    TriangleMesh other = both;
+    other.transform(Affine::translate({0, 0, 2}));
+    for (auto triangle : other.triangles) {
+        for (auto& corner : triangle) corner += 6;
+        both.triangles.push_back(triangle);
+    }
+    both.positions.insert(both.positions.end(), other.positions.begin(), other.positions.end());
+    both.colors.clear();
+    maker.add(maker.mesh(both), maker.material(lower));
+}
+
+TEST(ConeShadows, PartsOfASurfaceBehindEachOtherTintOneAfterTheOther) {
+    for (const bool as_mesh : {false, true}) {
+        const auto expect_passed = [&](const Material& material, ShadowTint tint,
+                                       const Rgb& expected) {
+            SceneMaker maker;
+            add_floor(maker);
+            maker.description().conventions.shading.shadow_tint = tint;
+            add_blocks(maker, material, material, as_mesh);
+            expect_both(maker, kBesides, {}, expected);
+        };
+        expect_passed(absorbing(), ShadowTint::PerCrossing,
+                      {std::exp(-1.0), std::exp(-0.4), std::exp(-0.2)});
+        expect_passed(tinted(), ShadowTint::PerDistance, kTint * kTint);
+        expect_passed(tinted(), ShadowTint::PerCrossing, kTint * kTint * kTint * kTint);
+    }
+}
+
+TEST(ConeShadows, AnOpaqueBlockOnOneOfGlassBlocks) {
+    for (const bool below : {false, true}) {
+        SceneMaker maker;
+        add_floor(maker);
+        add_blocks(maker, below ? white() : absorbing(), below ? absorbing() : white(), false);
+        expect_both(maker, kBesides, {}, {});
+    }
+}
+
+TEST(ConeTracing, AnOpaqueSheetIsSeenThroughOneWithAlphaThatSharesItsEdge) {
+    Material leaf = blended(0.4);
+    Material glow;
+    glow.emission.color = {1, 1, 1};
+    SceneMaker maker;
+    // Both share the edge from (-2, -2, 0) to (-2, 2, 0).
+    maker.add(Rectangle{{-2, -2, 0}, {4, 0, 1}, {0, 4, 0}}, maker.material(leaf));
+    maker.add(Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, maker.material(glow));
+    expect_both(maker, {0, 0, 6}, {}, grey(0.6));
+}
+
 /// Random bodies above each other, with a light above or inside.
 class RandomPile {
   public:

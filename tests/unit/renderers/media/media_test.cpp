@@ -26,6 +26,11 @@ using ShadowTint = ShadingConventions::ShadowTint;
 const Rgb kGlass{0.9, 0.95, 0.8};
 const Rgb kWine{0.6, 0.1, 0.2};
 
+Material white() {
+    Material m;
+    m.diffuse.color = {1, 1, 1};
+    return m;
+}
 MaterialId clear(SceneMaker& maker, const Rgb& kt) {
     Material m;
     m.transmissive.color = kt;
@@ -73,9 +78,7 @@ TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
         for (const auto tint : {ShadowTint::PerDistance, ShadowTint::PerCrossing}) {
             for (const double least : {0.0, 1e-6, 0.1}) {
                 SceneMaker maker;
-                Material white;
-                white.diffuse.color = {1, 1, 1};
-                maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(white));
+                maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(white()));
                 maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
                 maker.description().conventions.shading.shadow_tint = tint;
                 maker.description().conventions.shading.min_distance = least;
@@ -119,10 +122,9 @@ const std::vector<std::string> kAll{"whitted",       "whitted:fresnel=on,beer=on
                                     "beam_tracing"};
 
 /// Expects a colour in the middle of the pictures of the first `count` renderers.
-void expect_seen(SceneMaker& maker, const Rgb& expected, const std::string& what,
-                 std::size_t count) {
-    maker.description().cameras[0].camera =
-        look_along({0.1, 0.2, 9}, {0, 0, -1}, {0, 1, 0}, 1e-4, 1.0);
+void expect_seen(SceneMaker& maker, const Rgb& expected, const std::string& what, std::size_t count,
+                 const Vec3& eye = {0.1, 0.2, 9}) {
+    maker.description().cameras[0].camera = look_along(eye, {0, 0, -1}, {0, 1, 0}, 1e-4, 1.0);
     maker.description().conventions.shading.max_depth = 8;
     for (std::size_t k = 0; k < count; ++k) {
         SCOPED_TRACE(kAll[k] + ", " + what);
@@ -146,6 +148,40 @@ TEST(Media, LightFromInfinityDoesNotCrossWhatAbsorbs) {
     maker.description().picture.background = Rgb{1, 1, 1};
     maker.add(HalfSpace{{0, 0, 0}, {0, 0, 1}}, maker.material(absorber()));
     expect_seen(maker, {0, 0, 1}, "half-space", kAll.size() - 1);
+}
+
+/// A floor, a lamp and two absorbing layers between them, `gap` apart.
+SceneMaker between_layers(double gap, double thickness, bool reversed, bool by_kt) {
+    SceneMaker maker;
+    maker.add(Rectangle{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, maker.material(white()));
+    maker.light(PointLight{.position = {0, 0, 9}});
+    std::vector<BoxShape> layers{{{-5, -5, 2}, {5, 5, 2 + thickness}},
+                                 {{-4, -4, 2 + thickness + gap}, {4, 4, 6}}};
+    if (reversed) std::swap(layers[0], layers[1]);
+    for (const BoxShape& layer : layers) {
+        maker.add(layer, by_kt ? clear(maker, left_after(1)) : maker.material(absorber()));
+    }
+    maker.description().conventions.shading.shadow_tint = ShadowTint::PerDistance;
+    return maker;
+}
+
+TEST(Media, ShadowRaysEnterAndLeaveVolumesNearerThanTheLeastDistance) {
+    for (const double gap : {0.0, 1e-9, 1e-3}) {
+        for (const double thickness : {1.0, 1e-3}) {
+            for (const bool reversed : {false, true}) {
+                for (const bool by_kt : {false, true}) {
+                    for (const double least : {0.0, 1e-6, 0.1}) {
+                        SceneMaker maker = between_layers(gap, thickness, reversed, by_kt);
+                        maker.description().conventions.shading.min_distance = least;
+                        const std::string what = "gap " + std::to_string(gap) + ", thickness " +
+                                                 std::to_string(thickness) + ", least distance " +
+                                                 std::to_string(least) + (by_kt ? ", kt" : "");
+                        expect_seen(maker, left_after(4 - gap), what, 3, {0, 0, 1});
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {

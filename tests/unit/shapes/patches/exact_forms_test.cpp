@@ -93,5 +93,26 @@ TEST(ExactForms, LieOnTheShapeAndClose) {
     expect_exact<Rectangle>(200);
 }
 
+TEST(ExactForms, WhatIsAPointOfAProfileHasNoPatch) {
+    const Vec2 a{1, 0}, b{2, 0}, c{1, 1};
+    Lathe ring;
+    ring.profile.curves = {line_curve(a, b), line_curve(b, b), cubic_curve(b, b, b, b),
+                           line_curve(b, c), line_curve(c, a)};
+    ring.profile.loop_ends = {5};
+    // The loop once, and twice: then two points are left of it.
+    for (const std::size_t loops : {std::size_t{1}, std::size_t{2}}) {
+        Lathe lathe = ring;
+        if (loops == 2) {
+            lathe.profile.curves.insert(lathe.profile.curves.end(), ring.profile.curves.begin(),
+                                        ring.profile.curves.end());
+            lathe.profile.loop_ends.push_back(10);
+        }
+        lathe.prepare();
+        std::vector<BezierPiece> pieces;
+        append_pieces(lathe, pieces);
+        EXPECT_EQ(pieces.size(), loops == 1 ? 12u : 0u);
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -209,13 +209,14 @@ void append_pieces(const Lathe& shape, std::vector<BezierPiece>& pieces) {
     for (std::uint32_t part = 0; part < shape.profile.curves.size(); ++part) {
         const ProfileCurve& curve = shape.profile.curves[part];
         std::vector<std::array<double, 3>> profile;
-        bool on_axis = true;
+        bool on_axis = true, is_point = true;
         for (int k = 0; k <= curve.degree(); ++k) {
             const Vec2& p = curve.control(k);
             profile.push_back({p.x, p.y, 1.0});
             on_axis = on_axis && p.x == 0.0;
+            is_point = is_point && p == curve.control(0);
         }
-        if (on_axis) continue;
+        if (on_axis || is_point) continue;
         // A ring's normal is to the right of its profile's direction.
         const bool reversed = normal_is_left(shape, part);
         if (reversed) std::reverse(profile.begin(), profile.end());
