@@ -75,7 +75,10 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     }
     const SourceText text(source.bytes, source.path.string());
     const TextTree tree(
-        text, {.max_nesting = source.options.max_nesting, .max_nodes = source.options.max_elements},
+        text,
+        {.max_nesting = source.options.max_nesting,
+         .max_nodes = source.options.max_elements,
+         .pairs_take_blocks = false},  // `material = red { ... }`: the material, then a group
         diagnostics);
     RayContext context{scene, diagnostics, source.options, detect_ray_family(tree.root())};
     scene.conventions = context.family.conventions;

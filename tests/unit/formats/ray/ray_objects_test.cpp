@@ -96,6 +96,17 @@ TEST(RayImporter, FindsMaterialsByNameInBothSpellings) {
     EXPECT_EQ(i.parts()[1].material, i.parts()[2].material);
 }
 
+TEST(RayImporter, AGroupMayFollowTheNameOfAMaterialWithoutASemicolon) {
+    const Imported i = import_ray(
+        "material = { name red; diffuse = (1,0,0) } material = { diffuse = (0,1,0) } "
+        "material = red { sphere {} { material = red { box {} } } } square {}");
+    EXPECT_EQ(i.messages(), "");
+    ASSERT_EQ(i.parts().size(), 3u);
+    for (std::size_t part = 0; part < 3; ++part) {
+        EXPECT_EQ(material_of(i, part).diffuse.color, (Rgb{1, 0, 0})) << part;
+    }
+}
+
 TEST(RayImporter, ReportsUndefinedAndRepeatedNames) {
     const Imported i = import_ray("material = { name red; } sphere { material = blue }");
     EXPECT_TRUE(i.says("scene.ray:2:46: error: material 'blue' is not defined; defined are red"))
