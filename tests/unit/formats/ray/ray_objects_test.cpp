@@ -115,6 +115,16 @@ TEST(RayImporter, ReportsUndefinedAndRepeatedNames) {
                     .says("'red' is already defined in line 2"));
 }
 
+TEST(RayImporter, ListsTheFirstOfManyNames) {
+    std::string text;
+    for (int k = 1000; k < 2000; ++k) text += "material = { name m" + std::to_string(k) + "; } ";
+    const Imported i = import_ray("material = { name " + std::string(200, 'a') + "; } " + text +
+                                  "sphere { material = x }");
+    EXPECT_TRUE(i.says("defined are " + std::string(60, 'a') + ", m1000, m1001,"));
+    EXPECT_TRUE(i.says("m1017, m1018, ...\n")) << i.messages();
+    EXPECT_FALSE(i.says("m1019"));
+}
+
 TEST(RayImporter, KeepsAWrittenReflectiveWhateverTheSpecular) {
     const Imported i = import_ray(
         "sphere { material = { reflective = (0,0,0); specular = (.5,.5,.5); shininess = .2 } }");
