@@ -46,7 +46,7 @@ void read_items(TextNode root, RayContext& context) {
         if (item.is(NodeKind::Entry) && is_ray_camera_or_light(item.text())) {
             read_ray_camera_or_light(item, context);
         } else {
-            objects.read(item, {}, material);
+            objects.read(item, material);
         }
     }
 }

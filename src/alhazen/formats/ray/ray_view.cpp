@@ -284,6 +284,12 @@ void read_ray_camera_or_light(TextNode entry, RayContext& context) {
     if (entry.empty() || !entry.first().is(NodeKind::Block)) {
         context.diagnostics.error(entry.location(),
                                   std::string(entry.text()) + ": expected a block { }");
+std::vector<std::string_view> ray_cameras_and_lights() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kReaders) names.push_back(name);
+    return names;
+}
+
         return;
     }
     for (const auto& [name, read] : kReaders) {
