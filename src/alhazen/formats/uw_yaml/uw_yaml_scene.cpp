@@ -10,7 +10,8 @@ namespace {
 
 /// Limit on nodes and components read: aliases can expand a short text enormously.
 constexpr std::size_t kMaxVisits = 200'000;
-/// Half the thickness of the format's plane, which has two sheets: light crosses two surfaces.
+/// Half the thickness of the format's plane, which has two sheets. Light that crosses both within
+/// the format's minimum distance meets one.
 constexpr double kPlaneHalfThickness = 1e-5;
 
 /// Keys of which some have no effect on a trace.
