@@ -142,6 +142,24 @@ TEST(RayImporter, MakesFansOfPolygons) {
 }
 
 // As in the programs of the course: the area of a face does not count.
+TEST(RayImporter, OfTwoGennormalsTheLastCountsWithAWarning) {
+    const auto read = [](const std::string& items) {
+        return import_ray(std::string("polymesh { ") + kSquareMesh + items + " }");
+    };
+    for (const char* off :
+         {"gennormals; gennormals = false;", "gennormals = true; gennormals = false;"}) {
+        const Imported i = read(off);
+        EXPECT_TRUE(i.scene.meshes.at(0).mesh->normals.empty()) << off;
+        EXPECT_TRUE(i.says("warning: polymesh: 'gennormals' is given twice")) << i.messages();
+        EXPECT_EQ(i.diagnostics.all().size(), 1U) << i.messages();
+    }
+    const Imported on = read("gennormals = false; gennormals;");
+    EXPECT_EQ(on.scene.meshes.at(0).mesh->normals.size(), 4U);
+    EXPECT_TRUE(on.says("warning: polymesh: 'gennormals' is given twice"));
+    EXPECT_EQ(read("gennormals;").messages(), "");
+    EXPECT_EQ(read("gennormals = true").messages(), "");
+}
+
 TEST(RayImporter, GeneratedNormalsAreMeansOfUnitNormals) {
     const Imported i = import_ray(
         "trimesh { points = ((0,0,0),(1,0,0),(0,9,0),(0,0,1)); faces = ((0,1,2),(0,3,1),(0,0,1)); "
