@@ -97,19 +97,24 @@ void NffReader::read_word() {
 }
 
 bool NffReader::view() {
+    if (++views_ == 2) warn_once("v", "another view: its lines replace those of the first");
     view_.location = statement_;
     return true;
 }
 bool NffReader::from() {
+    warn_of_two(view_.from.has_value());
     return vector(view_.from.emplace());
 }
 bool NffReader::at() {
+    warn_of_two(view_.at.has_value());
     return vector(view_.at.emplace());
 }
 bool NffReader::up() {
+    warn_of_two(view_.up.has_value());
     return vector(view_.up.emplace());
 }
 bool NffReader::angle() {
+    warn_of_two(view_.angle_deg.has_value());
     return numbers(&view_.angle_deg.emplace(), 1);
 }
 bool NffReader::hither() {
@@ -117,12 +122,14 @@ bool NffReader::hither() {
     return numbers(&unused, 1);
 }
 bool NffReader::resolution() {
+    warn_of_two(view_.resolution.has_value());
     double size[2];
     if (!numbers(size, 2)) return false;
     view_.resolution = Vec2{size[0], size[1]};
     return true;
 }
 bool NffReader::background() {
+    warn_of_two(scene_.picture.background.has_value());
     return color(scene_.picture.background.emplace());
 }
 
@@ -260,6 +267,12 @@ bool NffReader::at_number() {
 void NffReader::error(const FileLocation& where, const std::string& message) {
     diagnostics_.error(where, message);
     ++errors_;
+}
+void NffReader::warn_of_two(bool given) {
+    // A second view was warned of as a whole.
+    if (given && (views_ < 2 || statement_name_ == "b")) {
+        warn_once(statement_name_, "'" + statement_name_ + "' is given twice; the last counts");
+    }
 }
 void NffReader::warn_once(const std::string& what, const std::string& message) {
     if (std::find(warned_.begin(), warned_.end(), what) != warned_.end()) return;

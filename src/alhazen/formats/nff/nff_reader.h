@@ -60,6 +60,8 @@ class NffReader {
     bool numbers(double* values, int count);
     bool at_number();
     void error(const FileLocation& where, const std::string& message);
+    /// Warns, once for each statement, if the current one was `given` before.
+    void warn_of_two(bool given);
     /// Warns at the first occurrence of `what`.
     void warn_once(const std::string& what, const std::string& message);
 
@@ -73,6 +75,7 @@ class NffReader {
     std::string statement_name_;
     std::vector<std::string> warned_;
     int errors_ = 0;
+    int views_ = 0;  ///< number of `v` read
     bool refused_block_ = false;
     bool recovering_ = false;  ///< after an error, until the next known word
 };

@@ -1,10 +1,10 @@
 #include "alhazen/formats/pictures/picture_finder.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
 
 namespace alhazen {
 
@@ -12,22 +12,26 @@ namespace {
 
 constexpr std::size_t kMaxListed = 100'000;
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
-std::map<std::string, std::string> list(const std::filesystem::path& folder) {
-    std::map<std::string, std::string> names;
+PictureFinder::Listing list(const std::filesystem::path& folder) {
+    PictureFinder::Listing names;
+    std::size_t listed = 0;
     std::error_code failed;
     for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
          entry.increment(failed)) {
-        if (names.size() == kMaxListed) break;
+        if (++listed > kMaxListed) break;
         std::string name = entry->path().filename().string();
-        names.emplace(lower(name), std::move(name));
+        names[lower_case(name)].insert(std::move(name));
     }
     return names;
+}
+
+/// The folder that two absolute paths have in common.
+std::filesystem::path common_folder(const std::filesystem::path& a,
+                                    const std::filesystem::path& b) {
+    std::filesystem::path common;
+    const auto end = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
+    for (auto component = a.begin(); component != end; ++component) common /= *component;
+    return common;
 }
 
 }  // namespace
@@ -43,20 +47,47 @@ std::optional<std::string> PictureFinder::exact(const std::string& name) const {
     return std::nullopt;
 }
 
-std::optional<std::string> PictureFinder::with_other_capitals(const std::string& name) {
-    const std::filesystem::path relative(name);
-    const std::filesystem::path parent = relative.parent_path();
-    std::filesystem::path folder = folder_;
+const PictureFinder::Listing& PictureFinder::listing(const std::filesystem::path& folder) {
+    static const Listing kNone;
+    const auto known = listings_.find(folder);
+    if (known != listings_.end()) return known->second;
+    if (listings_.size() == kMaxNames) return kNone;
+    Listing& names = listings_[folder];
     try {
-        if (!parent.empty()) folder = resolve_inside(roots_, folder_, parent.string());
+        names = list(resolve_inside(roots_, folder_, folder.string()));
     } catch (const Error&) {
-        return std::nullopt;
+        // Outside the allowed folders: treated as empty.
     }
-    const auto [entry, fresh] = listings_.try_emplace(folder);
-    if (fresh) entry->second = list(folder);
-    const auto found = entry->second.find(lower(relative.filename().string()));
-    if (found == entry->second.end()) return std::nullopt;
-    return exact((parent / found->second).string());
+    return names;
+}
+
+std::optional<std::string> PictureFinder::with_other_capitals(const std::string& name) {
+    const std::filesystem::path whole = (folder_ / name).lexically_normal();
+    std::vector<std::filesystem::path> starts{common_folder(folder_, whole)};
+    for (const std::filesystem::path& root : roots_) {
+        if (root != starts.front()) starts.push_back(root);
+    }
+    for (const std::filesystem::path& start : starts) {
+        std::vector<std::filesystem::path> places{start};
+        for (const std::filesystem::path& component : whole.lexically_relative(start)) {
+            const std::string wanted = lower_case(component.string());
+            std::vector<std::filesystem::path> next;
+            for (const std::filesystem::path& place : places) {
+                const Listing& names = listing(place);
+                const auto found = names.find(wanted);
+                if (found == names.end()) continue;
+                for (const std::string& found_name : found->second) {
+                    next.push_back(place / found_name);
+                }
+            }
+            places = std::move(next);
+            if (places.empty()) break;
+        }
+        for (const std::filesystem::path& place : places) {
+            if (auto found = exact(place.lexically_relative(folder_).string())) return found;
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> PictureFinder::find(const std::string& written) {

@@ -46,7 +46,7 @@ void read_items(TextNode root, RayContext& context) {
         if (item.is(NodeKind::Entry) && is_ray_camera_or_light(item.text())) {
             read_ray_camera_or_light(item, context);
         } else {
-            objects.read(item, {}, material);
+            objects.read(item, material);
         }
     }
 }
@@ -75,7 +75,10 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     }
     const SourceText text(source.bytes, source.path.string());
     const TextTree tree(
-        text, {.max_nesting = source.options.max_nesting, .max_nodes = source.options.max_elements},
+        text,
+        {.max_nesting = source.options.max_nesting,
+         .max_nodes = source.options.max_elements,
+         .pairs_take_blocks = false},  // `material = red { ... }`: the material, then a group
         diagnostics);
     RayContext context{scene, diagnostics, source.options, detect_ray_family(tree.root())};
     scene.conventions = context.family.conventions;

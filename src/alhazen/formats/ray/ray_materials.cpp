@@ -1,8 +1,7 @@
 #include "alhazen/formats/ray/ray_materials.h"
 
-#include <vector>
-
 #include "alhazen/formats/ray/ray_extensions.h"
+#include "alhazen/formats/text/first_names.h"
 
 namespace alhazen {
 
@@ -49,11 +48,9 @@ void RayMaterials::define(TextNode entry, const RayMaterial& enclosing) {
 RayMaterial RayMaterials::named(TextNode word, const RayMaterial& fallback) {
     const auto found = by_name_.find(std::string(word.text()));
     if (found != by_name_.end()) return found->second;
-    std::vector<std::string_view> names;
-    for (const auto& [name, material] : by_name_) names.push_back(name);
-    context_.diagnostics.error(word.location(),
-                               "material '" + printable(word.text()) + "' is not defined" +
-                                   (names.empty() ? "" : "; defined are " + joined(names)));
+    context_.diagnostics.error(
+        word.location(), "material '" + printable(word.text()) + "' is not defined" +
+                             (by_name_.empty() ? "" : "; defined are " + first_names(by_name_)));
     return fallback;
 }
 

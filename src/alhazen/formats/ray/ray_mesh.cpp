@@ -9,11 +9,23 @@ namespace alhazen {
 
 namespace {
 
-bool wants_normals(BlockReader& reader) {
+bool wants_normals(BlockReader& reader, Diagnostics& diagnostics) {
+    reader.ignore("gennormals");
     bool generate = false;
-    reader.read("gennormals", generate);
+    std::optional<TextNode> previous;
     for (const TextNode item : reader.block()) {
-        if (item.is(NodeKind::Word, "gennormals")) generate = true;  // `gennormals;`
+        const bool word = item.is(NodeKind::Word, "gennormals");  // `gennormals;`
+        if (!word && !item.is(NodeKind::Pair, "gennormals")) continue;
+        // The reader warns of two pairs.
+        if (previous && (word || previous->is(NodeKind::Word))) {
+            diagnostics.warning(item.location(), reader.what() + ": 'gennormals' is given twice");
+        }
+        if (word) {
+            generate = true;
+        } else if (!item.broken() && !item.empty()) {
+            reader.values().read(item.first(), "gennormals", generate);
+        }
+        previous = item;
     }
     return generate;
 }
@@ -61,7 +73,7 @@ std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
     } else {
         reader.ignore("materials");
     }
-    if (wants_normals(reader) && readable) mesh->generate_mean_normals();
+    if (wants_normals(reader, context.diagnostics) && readable) mesh->generate_mean_normals();
     report_other_items(reader, context.diagnostics);
     if (!readable) return std::nullopt;
     context.scene.meshes.push_back({"", std::move(mesh), reader.block().location()});

@@ -7,6 +7,7 @@
 #include "alhazen/formats/core/homogeneous_matrix.h"
 #include "alhazen/formats/ray/ray_extensions.h"
 #include "alhazen/formats/ray/ray_mesh.h"
+#include "alhazen/formats/ray/ray_view.h"
 
 namespace alhazen {
 
@@ -49,6 +50,11 @@ constexpr std::pair<std::string_view, ReadShape> kShapeObjects[] = {
 
 bool is_mesh(std::string_view name) {
     return name == "trimesh" || name == "polymesh";
+}
+
+bool is_shape(std::string_view name) {
+    return is_mesh(name) || std::any_of(std::begin(kShapeObjects), std::end(kShapeObjects),
+                                        [&](const auto& entry) { return entry.first == name; });
 }
 
 constexpr std::array<std::string_view, 4> kTransforms{"translate", "rotate", "scale", "transform"};
@@ -119,59 +125,69 @@ std::optional<Affine> read_affine(std::string_view name, TextNode list, const Ar
 
 }  // namespace
 
-std::string RayObjects::known() {
+std::string RayObjects::known(Place place) {
     std::vector<std::string_view> names;
+    if (place == Place::TopLevel) names = ray_cameras_and_lights();
+    names.push_back("material");
     for (const auto& [name, read] : kShapeObjects) names.push_back(name);
     names.insert(names.end(), {"trimesh", "polymesh"});
     names.insert(names.end(), kTransforms.begin(), kTransforms.end());
-    return joined(names);
+    return joined(names) + " and groups { }";
 }
 
-void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial& material) {
+void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial& material,
+                      Place place) {
     Affine transform = object_from_part;
     std::optional<TextNode> object = item;
     // Transform chains are iterated, not recursed into: only groups use stack.
     while (object && object->is(NodeKind::Entry) && is_transform(object->text())) {
         object = read_transform(*object, transform);
+        place = Place::Inside;
     }
-    if (object && !object->broken()) read_untransformed(*object, transform, material);
+    if (object && !object->broken()) read_untransformed(*object, transform, material, place);
 }
 
 void RayObjects::read_untransformed(TextNode item, const Affine& object_from_part,
-                                    RayMaterial& material) {
+                                    RayMaterial& material, Place place) {
     const std::string_view name = item.text();
     if (item.is(NodeKind::Block)) return read_group(item, object_from_part, material);
     if (item.is(NodeKind::Pair, "material")) {
         if (!item.empty()) material = materials_.read(item.first(), material);
         return;
     }
-    if (!item.is(NodeKind::Entry)) {
-        context_.diagnostics.error(item.location(), "expected an object, found " + item.describe() +
-                                                        "; known are " + known());
-        return;
-    }
+    if (!item.is(NodeKind::Entry)) return refuse(item, place);
     if (name == "material") return materials_.define(item, material);
-    const bool shape = std::any_of(std::begin(kShapeObjects), std::end(kShapeObjects),
-                                   [&](const auto& entry) { return entry.first == name; });
-    if (shape || is_mesh(name)) return read_shape(item, object_from_part, material);
-    refuse(item);
+    if (is_shape(name)) return read_shape(item, object_from_part, material);
+    refuse(item, place);
 }
 
-void RayObjects::refuse(TextNode entry) {
-    const std::string_view name = entry.text();
-    const bool light = name.ends_with("_light") || name == "skybox";
-    if (const auto extension = ray_extension(name)) {
-        context_.diagnostics.error(entry.location(),
-                                   refusal(light ? "light" : "object", name, *extension));
-    } else {
-        context_.diagnostics.error(
-            entry.location(), "unknown object '" + printable(name) + "'; known are " + known());
+void RayObjects::refuse(TextNode item, Place place) {
+    const std::string_view name = item.text();
+    const auto error = [&](const std::string& message) {
+        context_.diagnostics.error(item.location(), message);
+    };
+    const bool camera_or_light = is_ray_camera_or_light(name);
+    if (camera_or_light && place == Place::Inside) {
+        return error(std::string(name) + ": cameras and lights stand at the top level of the file" +
+                     ", outside groups and transforms");
     }
+    if (camera_or_light || is_shape(name)) {  // no entry: `camera = { }`, `sphere;`
+        return error(std::string(name) + ": expected a block { } right after the name");
+    }
+    if (!item.is(NodeKind::Entry)) {
+        return error("expected an object, found " + item.describe() + "; known are " +
+                     known(place));
+    }
+    if (const auto extension = ray_extension(name)) {
+        const bool light = name.ends_with("_light") || name == "skybox";
+        return error(refusal(light ? "light" : "object", name, *extension));
+    }
+    error("unknown object '" + printable(name) + "'; known are " + known(place));
 }
 
 /// Reads a group. A default set inside is local to it: `material` is a copy.
 void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayMaterial material) {
-    for (const TextNode item : block) read(item, object_from_part, material);
+    for (const TextNode item : block) read(item, object_from_part, material, Place::Inside);
 }
 
 std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& object_from_part) {

@@ -17,20 +17,24 @@ class RayObjects {
     RayObjects(RayContext& context, RayMaterials& materials)
         : context_(context), materials_(materials) {}
 
-    /// Reads one item other than a camera or light: an object, a transform, a group or a material.
-    /// `material` is the default, which the item may change.
-    void read(TextNode item, const Affine& object_from_part, RayMaterial& material);
-
-    /// Names of all items valid in place of an object, for messages.
-    [[nodiscard]] static std::string known();
+    /// Reads one item of the file other than a camera or light: an object, a transform, a group or
+    /// a material. `material` is the default, which the item may change.
+    void read(TextNode item, RayMaterial& material) { read(item, {}, material, Place::TopLevel); }
 
   private:
+    /// Where an item stands; cameras and lights are items of the top level only.
+    enum class Place { TopLevel, Inside };
+
+    void read(TextNode item, const Affine& object_from_part, RayMaterial& material, Place place);
     void read_group(TextNode block, const Affine& object_from_part, RayMaterial material);
     /// Multiplies `object_from_part` by the transform; returns the operand of the transform.
     std::optional<TextNode> read_transform(TextNode entry, Affine& object_from_part);
-    void read_untransformed(TextNode item, const Affine& object_from_part, RayMaterial& material);
+    void read_untransformed(TextNode item, const Affine& object_from_part, RayMaterial& material,
+                            Place place);
     void read_shape(TextNode entry, const Affine& object_from_part, const RayMaterial& material);
-    void refuse(TextNode entry);
+    void refuse(TextNode item, Place place);
+    /// The items valid at a place, for messages.
+    [[nodiscard]] static std::string known(Place place);
 
     RayContext& context_;
     RayMaterials& materials_;

@@ -51,16 +51,19 @@ Mat3 axes_towards(BlockReader& reader, const Vec3& eye, const Vec3& point, const
 Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool normalise) {
     Mat3 axes = before;
     double q[4];
-    for (const char* key :
-         {"quaternian", "quaternion"}) {  // the first is the spelling of the reference
-        const auto value = reader.find(key);
-        if (!value || !reader.values().read_numbers(*value, key, 4, q)) continue;
+    // The first is the spelling of the reference.
+    const auto turn = reader.find("quaternian", "quaternion");
+    if (turn && reader.values().read_numbers(*turn, "quaternion", 4, q)) {
         const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
         if (norm > 0) {
             axes = rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
         } else {
-            reader.error(*value, std::string(key) + " must not be zero");
+            reader.error(*turn, "the quaternion must not be zero");
         }
+    }
+    if (turn && (reader.has("viewdir") || reader.has("look_at"))) {
+        reader.values().diagnostics.warning(
+            turn->location(), "camera: a quaternion has no effect beside viewdir or look_at");
     }
     Vec3 point, view, up;
     if (!reader.has("viewdir") && reader.read("look_at", point)) {
@@ -131,8 +134,9 @@ void read_camera(TextNode entry, RayContext& context) {
 
 Rgb read_color(BlockReader& reader) {
     Rgb color;
-    reader.read("color", color);
-    reader.read("colour", color);
+    if (const auto value = reader.find("color", "colour")) {
+        reader.values().read(*value, "color", color);
+    }
     if (!reader.has("colour")) reader.require("color");
     return color;
 }
@@ -278,6 +282,12 @@ bool is_ray_camera_or_light(std::string_view name) {
         if (known == name) return true;
     }
     return false;
+}
+
+std::vector<std::string_view> ray_cameras_and_lights() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kReaders) names.push_back(name);
+    return names;
 }
 
 void read_ray_camera_or_light(TextNode entry, RayContext& context) {

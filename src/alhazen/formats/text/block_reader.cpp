@@ -93,15 +93,22 @@ std::string joined(const std::vector<std::string_view>& names) {
     return text;
 }
 
-std::optional<TextNode> BlockReader::find(std::string_view key) {
-    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+std::optional<TextNode> BlockReader::find(std::string_view key, std::string_view spelling) {
+    for (const std::string_view name : {key, spelling}) {
+        if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+        if (name == spelling) break;
+    }
     if (observer_ != nullptr) observer_->key(what_, key, {});
     std::optional<TextNode> found;
-    bool seen = false;
+    std::string_view seen;
     for (const TextNode item : block_) {
-        if (!item.is(NodeKind::Pair, key)) continue;
-        if (seen) complain(item, what_ + ": '" + std::string(key) + "' is given twice");
-        seen = true;
+        if (!item.is(NodeKind::Pair, key) && !item.is(NodeKind::Pair, spelling)) continue;
+        if (!seen.empty()) {
+            const bool same = seen == item.text();
+            complain(item, what_ + ": '" + std::string(item.text()) + "' is given twice" +
+                               (same ? "" : ", first as '" + std::string(seen) + "'"));
+        }
+        seen = item.text();
         if (item.broken() || item.empty()) continue;
         if (!found || strictness_ == Strictness::Tolerant) found = item.first();
     }

@@ -71,7 +71,9 @@ class BlockReader {
     void observe(BlockObserver* observer) { observer_ = observer; }
 
     /// The value of `key`, unless absent or broken.
-    [[nodiscard]] std::optional<TextNode> find(std::string_view key);
+    [[nodiscard]] std::optional<TextNode> find(std::string_view key) { return find(key, key); }
+    /// The value of a key that has another `spelling`.
+    [[nodiscard]] std::optional<TextNode> find(std::string_view key, std::string_view spelling);
     /// True if the key is present, whether its value is valid or not.
     [[nodiscard]] bool has(std::string_view key) const;
 

@@ -78,8 +78,9 @@ SourceText::SourceText(std::string_view bytes, std::string file)
 FileLocation SourceText::location(std::uint32_t offset) const {
     if (line_starts_.empty()) {
         line_starts_.push_back(0);
-        for (std::size_t i = bytes_.find('\n'); i != std::string_view::npos;
-             i = bytes_.find('\n', i + 1)) {
+        for (std::size_t i = bytes_.find_first_of("\r\n"); i != std::string_view::npos;
+             i = bytes_.find_first_of("\r\n", i + 1)) {
+            if (bytes_.substr(i, 2) == "\r\n") ++i;
             line_starts_.push_back(static_cast<std::uint32_t>(i + 1));
         }
     }

@@ -5,7 +5,8 @@
 /// (docs/reference/formats).
 /// Differs: numbers follow C (the old format had neither `+` nor `E`) and must be read completely:
 /// `1-2` is an error, not 1.
-/// Conventions: tokens are views into the bytes; columns count bytes from 1. Errors in single
+/// Conventions: tokens are views into the bytes. Lines end at \n, \r\n or \r; columns count bytes
+/// from 1. Errors in single
 /// tokens go to the diagnostics and lexing continues; the parser need not report them again.
 
 #include <cstdint>

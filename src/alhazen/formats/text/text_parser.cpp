@@ -103,7 +103,8 @@ void TextParser::close_to(std::size_t depth) {
 }
 
 void TextParser::word_value() {
-    if (ahead_.is('(') || ahead_.is('{')) {
+    const bool takes_blocks = pairs_take_blocks_ || stack_.back().kind != NodeKind::Pair;
+    if (ahead_.is('(') || (ahead_.is('{') && takes_blocks)) {
         open(NodeKind::Entry);
     } else {
         add_leaf(NodeKind::Word);

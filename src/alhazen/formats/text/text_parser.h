@@ -23,6 +23,7 @@ class TextParser {
           source_(*tree.source_),
           diagnostics_(diagnostics),
           string_escapes_(limits.string_escapes),
+          pairs_take_blocks_(limits.pairs_take_blocks),
           lexer_(source_, diagnostics, limits.string_escapes),
           max_nesting_(std::min(limits.max_nesting, TextTree::kMaxNesting)),
           max_nodes_(std::min<std::uint64_t>(limits.max_nodes,
@@ -70,6 +71,7 @@ class TextParser {
     const SourceText& source_;
     Diagnostics& diagnostics_;
     bool string_escapes_;
+    bool pairs_take_blocks_;
     Lexer lexer_;
     int max_nesting_;
     std::uint64_t max_nodes_;

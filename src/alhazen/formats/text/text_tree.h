@@ -35,6 +35,8 @@ class TextTree {
         int max_nesting = 256;  ///< of lists and blocks; capped at kMaxNesting
         std::uint64_t max_nodes = 400'000'000;
         bool string_escapes = false;  ///< see Lexer
+        /// The value of a pair may be `WORD block`; if not, the block is the next item.
+        bool pairs_take_blocks = true;
     };
     /// Readers of the tree recurse; this limit bounds their stack, also under sanitizers.
     static constexpr int kMaxNesting = 500;

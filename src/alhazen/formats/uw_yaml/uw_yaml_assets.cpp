@@ -1,12 +1,11 @@
 #include "alhazen/formats/uw_yaml/uw_yaml_assets.h"
 
-#include <algorithm>
 #include <array>
-#include <vector>
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/formats/mesh_files/mesh_io.h"
+#include "alhazen/formats/text/first_names.h"
 
 namespace alhazen {
 
@@ -39,17 +38,10 @@ constexpr std::array<std::string_view, 14> kUniforms{
     "Color",         "LinearAttenuation",  "QuadraticAttenuation",
     "ShadowBias",    "ConstantAttenuation"};
 
-/// The keys in order, for messages: "a, b, c".
+/// The keys, for messages.
 template <class Map>
 std::string names_of(const Map& map) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : map) names.push_back(name);
-    std::sort(names.begin(), names.end());
-    std::string text;
-    for (std::size_t i = 0; i < names.size() && i < 20; ++i) {
-        text += (i == 0 ? "" : ", ") + names[i].substr(0, 60);
-    }
-    return names.empty() ? "none is defined" : "expected one of " + text;
+    return map.empty() ? "none is defined" : "expected one of " + first_names(map);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 /// Conventions: paths are relative to the parent folder of the course's `assets`.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -36,7 +37,7 @@ class UwAssets {
     [[nodiscard]] bool has_mesh(const std::string& name) const { return meshes_.contains(name); }
 
   private:
-    using Table = std::unordered_map<std::string, YAML::Node>;
+    using Table = std::map<std::string, YAML::Node>;
     Table table_of(const YAML::Node& document, const char* key);
     /// The file named by `Path`, relative to the root; as written if there is none.
     std::string path_of(const YAML::Node& asset);

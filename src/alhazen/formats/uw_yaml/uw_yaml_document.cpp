@@ -125,7 +125,14 @@ std::optional<YAML::Node> parse_yaml(std::string_view bytes, const std::string& 
     }
     check_nesting(bytes, file, max_nesting);
     try {
-        return YAML::Load(std::string(bytes));
+        const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(bytes));
+        for (std::size_t i = 1; i < documents.size(); ++i) {
+            if (documents[i].IsNull()) continue;
+            diagnostics.warning(place(file, documents[i].Mark()),
+                                "another YAML document in the file is not read");
+            break;
+        }
+        return documents.empty() ? YAML::Node() : documents.front();
     } catch (const YAML::DeepRecursion& e) {
         throw Error(ErrorKind::Scene, "nested more than " + std::to_string(max_nesting) + " deep",
                     place(file, e.mark));
@@ -182,26 +189,32 @@ void YamlValues::check_keys(const YAML::Node& map, const std::string& what,
     }
 }
 
+std::optional<double> YamlValues::number_of(const YAML::Node& node) {
+    if (!node.IsScalar()) return std::nullopt;
+    double value = 0.0;
+    TextCursor cursor(node.Scalar());
+    if (!cursor.number(value) || !cursor.at_end()) return std::nullopt;
+    return value;
+}
+
+std::optional<bool> YamlValues::flag_of(const YAML::Node& node) {
+    bool value = false;
+    if (!YAML::convert<bool>::decode(node, value)) return std::nullopt;
+    return value;
+}
+
 double YamlValues::number(const YAML::Node& map, const char* key, double missing) {
     const YAML::Node node = find(map, key);
     if (!node.IsDefined()) return missing;
-    double value = 0.0;
-    if (node.IsScalar()) {
-        TextCursor cursor(node.Scalar());
-        if (cursor.number(value) && cursor.at_end()) return value;
-    }
+    if (const std::optional<double> value = number_of(node)) return *value;
     error(node, std::string("'") + key + "' must be a finite number");
     return missing;
 }
 
 bool YamlValues::flag(const YAML::Node& map, const char* key, bool missing) {
-    static constexpr std::array<std::string_view, 5> kTrue{"true", "True", "TRUE", "yes", "on"};
-    static constexpr std::array<std::string_view, 5> kFalse{"false", "False", "FALSE", "no", "off"};
     const YAML::Node node = find(map, key);
     if (!node.IsDefined()) return missing;
-    const std::string text = node.IsScalar() ? node.Scalar() : std::string();
-    if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) return true;
-    if (std::find(kFalse.begin(), kFalse.end(), text) != kFalse.end()) return false;
+    if (const std::optional<bool> value = flag_of(node)) return *value;
     error(node, std::string("'") + key + "' must be true or false");
     return missing;
 }

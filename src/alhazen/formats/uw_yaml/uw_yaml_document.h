@@ -44,6 +44,11 @@ class YamlValues {
     /// The value of `key`; an undefined node if `map` is not a map or lacks the key.
     [[nodiscard]] static YAML::Node find(const YAML::Node& map, const char* key);
 
+    /// The finite number that a node holds; none if it holds something else.
+    [[nodiscard]] static std::optional<double> number_of(const YAML::Node& node);
+    /// The truth value that a node holds, in the words of YAML 1.1 and any capitals that it has.
+    [[nodiscard]] static std::optional<bool> flag_of(const YAML::Node& node);
+
     [[nodiscard]] double number(const YAML::Node& map, const char* key, double missing);
     [[nodiscard]] bool flag(const YAML::Node& map, const char* key, bool missing);
     [[nodiscard]] std::string text(const YAML::Node& map, const char* key);

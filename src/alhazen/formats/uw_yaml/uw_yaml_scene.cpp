@@ -10,7 +10,8 @@ namespace {
 
 /// Limit on nodes and components read: aliases can expand a short text enormously.
 constexpr std::size_t kMaxVisits = 200'000;
-/// Half the thickness of the format's plane, which has two sheets: light crosses two surfaces.
+/// Half the thickness of the format's plane, which has two sheets. Light that crosses both within
+/// the format's minimum distance meets one.
 constexpr double kPlaneHalfThickness = 1e-5;
 
 /// Keys of which some have no effect on a trace.
@@ -353,14 +354,17 @@ void UwSceneReader::shadow_settings(const YAML::Node& trace) {
     using ShadowTint = ShadingConventions::ShadowTint;
     ShadowTint& tint = scene_.conventions.shading.shadow_tint;
     if (!values_.flag(trace, "Enable Shadows", true)) tint = ShadowTint::None;
-    const std::string text = values_.text(trace, "Shadows");
-    if (text.empty() || text == "2" || text == "true") return;
-    if (text == "0" || text == "false") {
+    const YAML::Node shadows = YamlValues::find(trace, "Shadows");
+    if (!shadows.IsDefined() || shadows.IsNull()) return;
+    const std::optional<double> level = YamlValues::number_of(shadows);
+    const std::optional<bool> flag = YamlValues::flag_of(shadows);
+    if (level == 2.0 || flag == true) return;
+    if (level == 0.0 || flag == false) {
         tint = ShadowTint::None;
-    } else if (text == "1") {
+    } else if (level == 1.0) {
         tint = ShadowTint::Opaque;
     } else {
-        values_.error(trace, "Shadows must be 0 (none), 1 (opaque) or 2 (coloured)");
+        values_.error(shadows, "Shadows must be 0 (none), 1 (opaque) or 2 (coloured)");
     }
 }
 

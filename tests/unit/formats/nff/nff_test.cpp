@@ -161,6 +161,28 @@ TEST(Nff, TheViewMustHaveADirectionForUpAndWholePixels) {
     EXPECT_EQ(finding(kView, "resolution 200 100", "resolution 2e2 1e2"), "");
 }
 
+TEST(Nff, OfTwoViewsOrBackgroundsTheLastCountsWithAWarning) {
+    const auto warnings = [](const std::string& text) {
+        Diagnostics found;
+        const SceneDescription scene = import_text(text, "a.nff", found);
+        EXPECT_EQ(scene.picture.background, (Rgb{0, 1, 0}));
+        EXPECT_EQ(scene.picture.width, 20);
+        return text_of(found);
+    };
+    const std::string green = "b 0 1 0\n", small = "resolution 20 10\n", view = kView + small;
+    EXPECT_EQ(warnings(green + view),
+              "a.nff:9:1: warning: 'resolution' is given twice; the last counts\n");
+    EXPECT_EQ(warnings("b 1 0 0\n" + kView + "v\n" + small + "b 0 0 0\n" + green),
+              "a.nff:9:1: warning: another view: its lines replace those of the first\n"
+              "a.nff:11:1: warning: 'b' is given twice; the last counts\n");
+}
+
+TEST(Nff, TheViewNeedsNoHither) {
+    Diagnostics found;
+    import_text("v\nfrom 0 0 -8\nat 0 0 0\nup 0 1 0\nangle 45\nresolution 2 2\n", "a.nff", found);
+    EXPECT_EQ(text_of(found), "");
+}
+
 TEST(Nff, FindingsNameLineAndColumn) {
     const auto expect = [](const std::string& text, const char* part) {
         Diagnostics found;

@@ -96,12 +96,33 @@ TEST(RayImporter, FindsMaterialsByNameInBothSpellings) {
     EXPECT_EQ(i.parts()[1].material, i.parts()[2].material);
 }
 
+TEST(RayImporter, AGroupMayFollowTheNameOfAMaterialWithoutASemicolon) {
+    const Imported i = import_ray(
+        "material = { name red; diffuse = (1,0,0) } material = { diffuse = (0,1,0) } "
+        "material = red { sphere {} { material = red { box {} } } } square {}");
+    EXPECT_EQ(i.messages(), "");
+    ASSERT_EQ(i.parts().size(), 3u);
+    for (std::size_t part = 0; part < 3; ++part) {
+        EXPECT_EQ(material_of(i, part).diffuse.color, (Rgb{1, 0, 0})) << part;
+    }
+}
+
 TEST(RayImporter, ReportsUndefinedAndRepeatedNames) {
     const Imported i = import_ray("material = { name red; } sphere { material = blue }");
     EXPECT_TRUE(i.says("scene.ray:2:46: error: material 'blue' is not defined; defined are red"))
         << i.messages();
     EXPECT_TRUE(import_ray("material = { name red; } material = { name red; }")
                     .says("'red' is already defined in line 2"));
+}
+
+TEST(RayImporter, ListsTheFirstOfManyNames) {
+    std::string text;
+    for (int k = 1000; k < 2000; ++k) text += "material = { name m" + std::to_string(k) + "; } ";
+    const Imported i = import_ray("material = { name " + std::string(200, 'a') + "; } " + text +
+                                  "sphere { material = x }");
+    EXPECT_TRUE(i.says("defined are " + std::string(60, 'a') + ", m1000, m1001,"));
+    EXPECT_TRUE(i.says("m1017, m1018, ...\n")) << i.messages();
+    EXPECT_FALSE(i.says("m1019"));
 }
 
 TEST(RayImporter, KeepsAWrittenReflectiveWhateverTheSpecular) {
@@ -121,6 +142,24 @@ TEST(RayImporter, MakesFansOfPolygons) {
 }
 
 // As in the programs of the course: the area of a face does not count.
+TEST(RayImporter, OfTwoGennormalsTheLastCountsWithAWarning) {
+    const auto read = [](const std::string& items) {
+        return import_ray(std::string("polymesh { ") + kSquareMesh + items + " }");
+    };
+    for (const char* off :
+         {"gennormals; gennormals = false;", "gennormals = true; gennormals = false;"}) {
+        const Imported i = read(off);
+        EXPECT_TRUE(i.scene.meshes.at(0).mesh->normals.empty()) << off;
+        EXPECT_TRUE(i.says("warning: polymesh: 'gennormals' is given twice")) << i.messages();
+        EXPECT_EQ(i.diagnostics.all().size(), 1U) << i.messages();
+    }
+    const Imported on = read("gennormals = false; gennormals;");
+    EXPECT_EQ(on.scene.meshes.at(0).mesh->normals.size(), 4U);
+    EXPECT_TRUE(on.says("warning: polymesh: 'gennormals' is given twice"));
+    EXPECT_EQ(read("gennormals;").messages(), "");
+    EXPECT_EQ(read("gennormals = true").messages(), "");
+}
+
 TEST(RayImporter, GeneratedNormalsAreMeansOfUnitNormals) {
     const Imported i = import_ray(
         "trimesh { points = ((0,0,0),(1,0,0),(0,9,0),(0,0,1)); faces = ((0,1,2),(0,3,1),(0,0,1)); "

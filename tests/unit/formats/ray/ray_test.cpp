@@ -96,12 +96,36 @@ TEST(RayImporter, NamesTheExtensionItRefuses) {
         {"sphere { material = { roughness = 0.5; } }", "microfacet"},
         {"sphere { material = { marble { a = 1; } } }", "solid textures"},
         {"camera { aperture = 0.5; }", "depth of field"},
-        {"warp { }", "unknown object 'warp'; known are sphere"},
+        {"warp { }",
+         "unknown object 'warp'; known are camera, ambient_light, directional_light, point_light, "
+         "area_light, spot_light, material, sphere"},
+        {"{ warp { } }", "unknown object 'warp'; known are material, sphere"},
+        {"{ warp { } }", "scale, transform and groups { }"},
     };
     for (const auto& c : cases) {
         const Imported i = import_ray(c.text);
         EXPECT_EQ(i.errors(), 1u) << c.text << "\n" << i.messages();
         EXPECT_TRUE(i.says(c.message)) << i.messages();
+    }
+}
+
+TEST(RayImporter, SaysThatCamerasAndLightsStandAtTheTopLevel) {
+    for (const std::string item :
+         {"camera { }", "point_light { }", "directional_light { }", "spot_light { }"}) {
+        for (const std::string& text :
+             {"{ " + item + " sphere { } }", "translate(0,0,1, " + item + ")"}) {
+            const Imported i = import_ray(text);
+            EXPECT_EQ(i.errors(), 1u) << i.messages();
+            EXPECT_TRUE(
+                i.says("cameras and lights stand at the top level of the file, outside "
+                       "groups and transforms"))
+                << i.messages();
+        }
+    }
+    for (const char* text : {"camera = { }", "sphere = { }", "polymesh = { }", "sphere;"}) {
+        const Imported i = import_ray(text);
+        EXPECT_EQ(i.errors(), 1u) << i.messages();
+        EXPECT_TRUE(i.says(": expected a block { } right after the name")) << i.messages();
     }
 }
 

@@ -69,6 +69,29 @@ TEST(RayImporter, TurnsTheCameraByAQuaternionInBothSpellings) {
     }
 }
 
+TEST(RayImporter, OfTwoSpellingsOfAKeyTheLastCountsWithAWarning) {
+    const auto of_light = [](const char* colors) {
+        return import_ray(std::string("ambient_light { ") + colors + " }");
+    };
+    const Imported first = of_light("colour = (.2,.2,.2); color = (1,0,0)");
+    EXPECT_EQ(std::get<AmbientLight>(first.scene.lights.at(0).light).ambient, (Rgb{1, 0, 0}));
+    EXPECT_TRUE(first.says("warning: ambient_light: 'color' is given twice, first as 'colour'"))
+        << first.messages();
+    const Imported last = of_light("color = (1,0,0); colour = (.2,.2,.2)");
+    EXPECT_EQ(std::get<AmbientLight>(last.scene.lights.at(0).light).ambient, (Rgb{.2, .2, .2}));
+    EXPECT_TRUE(last.says("warning: ambient_light: 'colour' is given twice, first as 'color'"));
+    EXPECT_EQ(of_light("colour = (.2,.2,.2)").messages(), "");
+    EXPECT_TRUE(of_light("color = (1,0,0); color = (0,0,0)").says("'color' is given twice\n"));
+
+    const Imported turned = import_ray("camera { quaternion = (0,0,0,1); quaternian = (0,1,0,0) }");
+    expect_near(std::get<PerspectiveCamera>(turned.scene.cameras.at(0).camera).look, {0, 0, 1});
+    EXPECT_TRUE(turned.says("'quaternian' is given twice, first as 'quaternion'"));
+    const Imported both =
+        import_ray("camera { viewdir = (0,0,-1); updir = (0,1,0); quaternian = (0,1,0,0) }");
+    expect_near(std::get<PerspectiveCamera>(both.scene.cameras.at(0).camera).look, {0, 0, -1});
+    EXPECT_TRUE(both.says("warning: camera: a quaternion has no effect beside viewdir"));
+}
+
 TEST(RayImporter, LooksAtAPoint) {
     const auto camera = [](const Imported& i) {
         EXPECT_EQ(i.errors(), 0u) << i.messages();

@@ -86,6 +86,19 @@ TEST(Lexer, PlacesTokensByLineAndColumn) {
     EXPECT_EQ(lexed.tokens[2].text, "d e");
 }
 
+TEST(Lexer, CountsLinesWhateverEndsThem) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        const std::string text = "a" + end + end + " bc" + end + "d";
+        const SourceText source(text, "f");
+        const Lexed lexed = lex(source);
+        ASSERT_EQ(lexed.tokens.size(), 3u);
+        EXPECT_EQ(source.location(lexed.tokens[1].offset), (FileLocation{"f", 3, 2}));
+        EXPECT_EQ(source.location(lexed.tokens[2].offset), (FileLocation{"f", 4, 1}));
+    }
+    const SourceText mixed("a\n\rb", "f");
+    EXPECT_EQ(mixed.location(3), (FileLocation{"f", 3, 1}));
+}
+
 TEST(Lexer, ReportsAnUnterminatedCommentWhereItBegins) {
     EXPECT_EQ(first_error("a\n /* b").substr(0, 6), "f:2:2:");
     EXPECT_EQ(first_error("a /*/").substr(0, 6), "f:1:3:");

@@ -190,6 +190,11 @@ TEST(UwYaml, ShadowsAreNoneOpaqueOrColouredAndOlderFilesSwitchThem) {
         {"Shadows: 1", ShadowTint::Opaque},
         {"Shadows: 2", ShadowTint::PerCrossing},
         {"Shadows: false", ShadowTint::None},
+        {"Shadows: No", ShadowTint::None},
+        {"Shadows: 1.0", ShadowTint::Opaque},
+        {"Shadows: 2.0", ShadowTint::PerCrossing},
+        {"Shadows: True", ShadowTint::PerCrossing},
+        {"Enable Shadows: Off", ShadowTint::None},
         {"Enable Shadows: false", ShadowTint::None},
         {"Enable Shadows: true", ShadowTint::PerCrossing}};
     for (const auto& [text, tint] : cases) {
@@ -201,6 +206,42 @@ TEST(UwYaml, ShadowsAreNoneOpaqueOrColouredAndOlderFilesSwitchThem) {
         EXPECT_EQ(scene.conventions.shading.shadow_tint, tint) << text;
         EXPECT_EQ(text_of(found), "") << text;
     }
+}
+
+TEST(UwYaml, TruthValuesHaveTheWordsAndCapitalsOfYaml) {
+    const auto nodes = [](const std::string& value) {
+        Diagnostics found;
+        const SceneDescription scene =
+            import_text(scene_of(kCamera, "    -   Enabled: " + value +
+                                              "\n        Components:\n"
+                                              "            Sphere: {Material: Red One}\n"),
+                        "a.yaml", found);
+        EXPECT_EQ(text_of(found), "") << value;
+        return scene.objects.at(0).parts.size();
+    };
+    for (const char* on : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON"}) {
+        EXPECT_EQ(nodes(on), 1U) << on;
+    }
+    for (const char* off : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF"}) {
+        EXPECT_EQ(nodes(off), 0U) << off;
+    }
+    Diagnostics found;
+    import_text(scene_of(kCamera, "    -   Enabled: tRUE\n"), "a.yaml", found);
+    EXPECT_TRUE(mentions(found, "'Enabled' must be true or false")) << text_of(found);
+}
+
+TEST(UwYaml, AnotherDocumentInTheFileIsAWarning) {
+    const std::string scene = scene_of("        Sphere: {Material: Red One}\n" + kCamera);
+    Diagnostics found;
+    EXPECT_EQ(import_text("---\n" + scene + "---\nRoot: {}\n", "a.yaml", found)
+                  .objects.at(0)
+                  .parts.size(),
+              1U);
+    EXPECT_TRUE(mentions(found, "warning: another YAML document in the file is not read"));
+    EXPECT_EQ(found.all().size(), 1U) << text_of(found);
+    Diagnostics none;
+    import_text("---\n" + scene + "...\n---\n# nothing\n", "a.yaml", none);
+    EXPECT_EQ(text_of(none), "");
 }
 
 TEST(UwYaml, WhatIsNotEnabledIsNotThere) {

@@ -12,6 +12,7 @@
 #include "alhazen/formats/core/importer.h"
 #include "alhazen/formats/pictures/texture_table.h"
 #include "alhazen/formats/text/block_reader.h"
+#include "alhazen/formats/text/first_names.h"
 
 namespace alhazen {
 
@@ -95,15 +96,10 @@ std::optional<Id> look_up(TextNode value, const char* kind,
                           Diagnostics& diagnostics) {
     const auto found = names.find(value.text());
     if (found != names.end()) return found->second;
-    constexpr std::size_t kMostListed = 20;
-    std::vector<std::string_view> known;
-    for (const auto& [name, id] : names) {
-        if (known.size() < kMostListed) known.push_back(name);
-    }
-    diagnostics.error(value.location(),
-                      std::string(kind) + " \"" + printable(value.text()) + "\" is not defined" +
-                          (known.empty() ? " before its use" : "; defined are " + joined(known)) +
-                          (names.size() > known.size() ? ", ..." : ""));
+    diagnostics.error(
+        value.location(),
+        std::string(kind) + " \"" + printable(value.text()) + "\" is not defined" +
+            (names.empty() ? " before its use" : "; defined are " + first_names(names)));
     return std::nullopt;
 }
 
