@@ -471,4 +471,9 @@ EmitterBounds bounds_of(const Emitter& e) {
     return bounds;
 }
 
+Ray leaving_ray(const Emitter& e, const EmitterPoint& p, const Vec3& direction) {
+    const double away = rounding_within(bounds_of(e).box);
+    return {p.point + (dot(direction, p.normal) < 0.0 ? -away : away) * p.normal, direction};
+}
+
 }  // namespace alhazen

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "alhazen/geometry/box.h"
+#include "alhazen/geometry/ray.h"
 #include "alhazen/illumination/spherical_polygons.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/affine.h"
@@ -146,5 +147,8 @@ struct EmitterBounds {
 [[nodiscard]] inline double rounding_within(const Box3& box) {
     return 0x1p-42 * std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
 }
+
+/// The ray that leaves a point of an emitter along a unit direction, outside of that bound.
+[[nodiscard]] Ray leaving_ray(const Emitter& emitter, const EmitterPoint& p, const Vec3& direction);
 
 }  // namespace alhazen

@@ -227,8 +227,8 @@ std::optional<std::size_t> EmitterList::find(const Hit& hit) const {
     return number;
 }
 
-Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
-                        const Vec2& parameters) const {
+std::optional<Hit> EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
+                                       const Vec2& parameters) const {
     Hit hit;
     hit.t = distance;
     hit.u = parameters.x;
@@ -237,6 +237,7 @@ Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
     Ray inner = ray;
     const Aggregate* aggregate = scene_.aggregate.get();
     std::uint32_t rest = static_cast<std::uint32_t>(emitter);
+    std::optional<PrimitiveId> other_half;
     for (;;) {
         const Table& counted = tables_.at(aggregate);
         const auto after = std::upper_bound(counted.before.begin(), counted.before.end() - 1, rest);
@@ -245,7 +246,12 @@ Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
         hit.primitive = PrimitiveId{counted.primitives[i]};
         const PrimitiveTable& table = aggregate->primitives();
         const std::uint32_t kind = table.kind(hit.primitive);
-        if (kind != kInstanceKind) break;
+        if (kind != kInstanceKind) {
+            if (i > 0 && counted.before[i - 1] == counted.before[i]) {
+                other_half = PrimitiveId{counted.primitives[i - 1]};
+            }
+            break;
+        }
         path.push_back(hit.primitive);
         const Instance& instance = table.instances[table.index(hit.primitive)];
         inner = inner_ray(instance, inner);
@@ -257,7 +263,13 @@ Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
     if (form == EmitterForm::Triangle || form == EmitterForm::Patch) return hit;
     // Parameters of other forms are those of the crossing nearest to the point.
     ShapeHits crossings;
-    aggregate->primitives().intersect(hit.primitive, inner, RayShear(inner.direction), crossings);
+    const RayShear shear(inner.direction);
+    aggregate->primitives().intersect(hit.primitive, inner, shear, crossings);
+    if (crossings.empty() && other_half) {
+        hit.primitive = *other_half;
+        aggregate->primitives().intersect(hit.primitive, inner, shear, crossings);
+    }
+    if (crossings.empty()) return std::nullopt;
     double nearest = kInfinity;
     for (const ShapeHit& crossing : crossings) {
         const double away = std::abs(crossing.t - distance);
@@ -272,8 +284,25 @@ Rgb EmitterList::radiance(std::size_t emitter, const Vec3& from, const Vec3& dir
                           double distance, const Vec2& parameters) const {
     if (!varying_[emitter]) return emitters_[emitter].radiance;
     const Ray ray{from, direction};
-    const Hit hit = hit_of(emitter, ray, distance, parameters);
-    return emission_at(scene_, surface_at(*scene_.aggregate, ray, hit));
+    const std::optional<Hit> hit = hit_of(emitter, ray, distance, parameters);
+    if (!hit) return emitters_[emitter].radiance;
+    return emission_at(scene_, surface_at(*scene_.aggregate, ray, *hit));
+}
+
+EmitterList::Start EmitterList::start(std::size_t emitter, const EmitterPoint& p,
+                                      const Vec3& direction) const {
+    const Emitter& e = emitters_[emitter];
+    const double away = std::sqrt(e.area);
+    const Vec3 normal = dot(direction, p.normal) < 0.0 ? -p.normal : p.normal;
+    const Ray ray{p.point + away * normal, -normal};
+    const std::optional<Hit> hit = hit_of(emitter, ray, away, p.parameters);
+    // By rounding the point may be beside the edge.
+    if (!hit) return {leaving_ray(e, p, direction), e.radiance};
+    Surface surface;
+    const bool varies = varying_[emitter];
+    set_surface(*scene_.aggregate, ray, *hit,
+                varies ? CoordinateNeed::all() : CoordinateNeed::none(), surface);
+    return {leaving_ray(surface, direction), varies ? emission_at(scene_, surface) : e.radiance};
 }
 
 Rgb EmitterList::mean_radiance(std::size_t emitter) const {

@@ -42,6 +42,15 @@ class EmitterList {
     /// `distance`.
     [[nodiscard]] Rgb radiance(std::size_t emitter, const Vec3& from, const Vec3& direction,
                                double distance, const Vec2& parameters) const;
+    /// A ray that leaves an emitter, and the radiance along it.
+    struct Start {
+        Ray ray;
+        Rgb radiance;
+    };
+    /// The ray that leaves a point of an emitter along a unit direction, outside of the error bound
+    /// of the surface (LeavingRays).
+    [[nodiscard]] Start start(std::size_t emitter, const EmitterPoint& p,
+                              const Vec3& direction) const;
     /// The radiance of an emitter, if it is the same everywhere; else null.
     [[nodiscard]] const Rgb* constant_radiance(std::size_t emitter) const {
         return varying_[emitter] ? nullptr : &emitters_[emitter].radiance;
@@ -77,8 +86,9 @@ class EmitterList {
     /// True if the triangle may be half of a rectangle: its radiance is constant.
     [[nodiscard]] bool may_be_half(const PrimitiveTable& table, PrimitiveId id) const;
     [[nodiscard]] std::uint32_t emitters_of(const PrimitiveTable& table, PrimitiveId id);
-    [[nodiscard]] Hit hit_of(std::size_t emitter, const Ray& ray, double distance,
-                             const Vec2& parameters) const;
+    /// None if the ray passes beside the emitter.
+    [[nodiscard]] std::optional<Hit> hit_of(std::size_t emitter, const Ray& ray, double distance,
+                                            const Vec2& parameters) const;
     [[nodiscard]] Rgb mean_radiance(std::size_t emitter) const;
 
     const Scene& scene_;

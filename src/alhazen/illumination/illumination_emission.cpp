@@ -15,10 +15,6 @@ double mean_power(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
 
-/// Offset of the origin of a ray from its surface, relative to the coordinates: above the rounding
-/// of crossings of all shapes.
-constexpr double kOffSurface = 1e-11;
-
 /// Cosine of the half angle of the cone into which a point or spot light emits; -1: all.
 double cosine_of_cone(const Light& light) {
     const auto* spot = std::get_if<SpotLight>(&light);
@@ -171,18 +167,14 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     const double cosine = std::sqrt(std::max(0.0, 1.0 - q.x * q.x - q.y * q.y));
     const Vec3 a = perpendicular(out.normal), b = cross(out.normal, a);
     const Vec3 along = normalize(q.x * a + q.y * b + cosine * out.normal);
-    const double reach = max_component(abs(p.point)) + std::sqrt(e.area);
-    out.ray = {p.point + (kOffSurface * reach) * out.normal, along};
     out.place_density = chosen.probability * p.density;
     out.is_hit = chosen.light < d.emitters.size();
     out.direction_density = cosine / (e.two_sided ? 2.0 * kPi : kPi);
-    Rgb radiance = e.radiance;
-    if (chosen.light < d.emitters.size()) {
-        const double away = std::sqrt(e.area);
-        radiance = d.emitters.radiance(chosen.light, p.point + away * out.normal, -out.normal, away,
-                                       p.parameters);
-    }
-    out.radiance = waves.emission(radiance, e.illuminant);
+    const EmitterList::Start start = out.is_hit
+                                         ? d.emitters.start(chosen.light, p, along)
+                                         : EmitterList::Start{leaving_ray(e, p, along), e.radiance};
+    out.ray = start.ray;
+    out.radiance = waves.emission(start.radiance, e.illuminant);
     return out;
 }
 

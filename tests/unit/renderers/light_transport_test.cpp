@@ -266,6 +266,37 @@ TEST(LightTransport, TheThreeStrategiesAgreeOnThirteenScenes) {
     }
 }
 
+// The lamp covers the whole picture, and lights the floor below it.
+TEST(LightTransport, ALampJustOverAFloorHidesItFromTheLens) {
+    for (const char* renderer :
+         {"path_tracing", "light_tracing", "bidirectional", "vcm:photons=200"}) {
+        for (const double gap : {1e-4, 1e-9, 1e-11}) {
+            SceneMaker maker = floor_from_above(0.2);
+            maker.add(rectangle({-0.5, -0.5, gap}, {1, 0, 0}, {0, 1, 0}),
+                      maker.material(shining({3, 2, 1})));
+            const Rgb seen = mean_of(picture_of(maker.compile(), renderer, 4, 64));
+            EXPECT_NEAR(seen.r, 3, 1e-12) << renderer << " " << gap;
+            EXPECT_NEAR(seen.b, 1, 1e-12) << renderer << " " << gap;
+        }
+    }
+}
+
+// The rays from the lens end before the floor that they connect to, also where they graze it.
+TEST(LightTransport, AFarLensSeesAFloorFromASmallAngle) {
+    for (const double slope : {1.0, 1e-1, 1e-2}) {
+        SceneMaker maker;
+        maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}),
+                  maker.material(matt({0.5, 0.5, 0.5})));
+        maker.add(ball({0, 0, 3}, 0.5), maker.material(shining({8, 8, 8})));
+        maker.description().cameras[0].camera =
+            look_along(1e6 * Vec3{0.6, 0.8, slope}, Vec3{-0.6, -0.8, -slope}, {0, 0, 1}, 2e-6, 1.0);
+        const Scene scene = maker.compile();
+        const double wanted = mean_of(picture_of(scene, "path_tracing", 4, 1024)).r;
+        const double found = mean_of(picture_of(scene, "light_tracing", 4, 1024)).r;
+        EXPECT_NEAR(found / wanted, 1.0, 0.1) << slope;
+    }
+}
+
 TEST(LightTransport, APlaneMirrorShowsTheLampBehindIt) {
     for (const char* renderer : {"path_tracing", "bidirectional"}) {
         SceneMaker maker = floor_from_above(0.02);
