@@ -1,10 +1,12 @@
 #include "alhazen/shapes/meshes/mesh_shells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "alhazen/base/interruptible_sort.h"
@@ -19,30 +21,57 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 
 struct Shells {
-    std::vector<std::uint32_t> of_vertex;  ///< [vertex] its shell
+    std::vector<std::uint32_t> of_triangle;  ///< [triangle] its shell
+    std::vector<std::uint32_t> merged;       ///< [vertex] the one that replaces it
     std::uint32_t count = 0;
 };
 
 /// The shells of triangles whose vertices are first replaced by those of `merged`.
-Shells shells_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& merged) {
-    std::vector<std::uint32_t> parent = merged;
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
+Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
+    struct Edge {
+        std::uint32_t higher, triangle;
     };
-    for (const Corners& t : mesh.triangles) {
-        const std::uint32_t a = root(t[0]);
-        parent[root(t[1])] = a;
-        parent[root(t[2])] = a;
+    const auto each_edge = [&](const auto& visit) {
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            const Corners& t = mesh.triangles[i];
+            for (int k = 0; k < 3; ++k) {
+                const auto [lo, hi] = std::minmax({merged[t[k]], merged[t[k == 2 ? 0 : k + 1]]});
+                visit(lo, Edge{hi, i});
+            }
+        }
+    };
+    // Edges by their lower vertex.
+    std::vector<std::size_t> ends(mesh.positions.size() + 1, 0);
+    each_edge([&](std::uint32_t lower, const Edge&) { ++ends[lower + 1]; });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Edge> edges(3 * mesh.triangles.size());
+    each_edge([&](std::uint32_t lower, const Edge& edge) { edges[ends[lower]++] = edge; });
+
+    std::vector<std::uint32_t> parent(mesh.triangles.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::size_t first = 0;
+    for (const std::size_t end : ends) {
+        const auto at = [&](std::size_t i) {
+            return edges.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::sort(at(first), at(end),
+                  [](const Edge& a, const Edge& b) { return a.higher < b.higher; });
+        for (std::size_t i = first + 1; i < end; ++i) {
+            if (edges[i].higher != edges[i - 1].higher) continue;
+            parent[root(edges[i].triangle)] = root(edges[i - 1].triangle);
+        }
+        first = end;
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    Shells shells{std::vector<std::uint32_t>(parent.size(), kNone)};
-    for (const Corners& t : mesh.triangles) {
-        std::uint32_t& number = shells.of_vertex[root(t[0])];
+    Shells shells{std::vector<std::uint32_t>(parent.size(), kNone), std::move(merged)};
+    for (std::uint32_t i = 0; i < parent.size(); ++i) {
+        std::uint32_t& number = shells.of_triangle[root(i)];
         if (number == kNone) number = shells.count++;
-    }
-    for (std::uint32_t v = 0; v < parent.size(); ++v) {
-        shells.of_vertex[v] = shells.of_vertex[root(v)];
+        shells.of_triangle[i] = number;
     }
     return shells;
 }
@@ -50,9 +79,24 @@ Shells shells_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& mer
 Shells shells_of(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> apart(mesh.positions.size());
     std::iota(apart.begin(), apart.end(), 0u);
-    Shells shells = shells_of(mesh, apart);
+    Shells shells = shells_of(mesh, std::move(apart));
     if (shells.count > 1) shells = shells_of(mesh, merged_positions(mesh.positions));
     return shells;
+}
+
+/// [vertex] True if shells touch in it.
+std::vector<bool> touching_vertices(const TriangleMesh& mesh, const Shells& shells) {
+    std::vector<std::uint32_t> first(mesh.positions.size(), shells.count);
+    std::vector<bool> touching(mesh.positions.size(), false);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (const std::uint32_t corner : mesh.triangles[i]) {
+            const std::uint32_t v = shells.merged[corner];
+            if (first[v] == shells.count) first[v] = shells.of_triangle[i];
+            if (first[v] != shells.of_triangle[i]) touching[v] = true;
+        }
+    }
+    for (std::size_t v = 0; v < touching.size(); ++v) touching[v] = touching[shells.merged[v]];
+    return touching;
 }
 
 /// [shell] True if its signed volume is certain to be negative.
@@ -62,8 +106,9 @@ std::vector<bool> inward_shells(const TriangleMesh& mesh, const Shells& shells) 
         double volume = 0, size = 0;  ///< six times
     };
     std::vector<Sum> sums(shells.count);
-    for (const Corners& t : mesh.triangles) {
-        Sum& sum = sums[shells.of_vertex[t[0]]];
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Corners& t = mesh.triangles[i];
+        Sum& sum = sums[shells.of_triangle[i]];
         if (sum.origin == nullptr) sum.origin = &mesh.positions[t[0]];
         const Vec3 a = mesh.positions[t[0]] - *sum.origin;
         const Vec3 area =
@@ -96,24 +141,40 @@ int passes_ahead(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q) {
     return winding * dot(cross(b - a, c - a), q - a) < 0.0 ? winding : 0;
 }
 
+/// True if `q` lies on the triangle for all that rounding lets one tell, or beside it in its plane
+/// and box.
+bool touches(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q) {
+    Box3 box;
+    for (const Vec3& v : {a, b, c}) box.include(v);
+    const Vec3 under = q - box.lo, over = box.hi - q;
+    if (std::min({under.x, under.y, under.z, over.x, over.y, over.z}) < 0.0) return false;
+    const Vec3 area = cross(b - a, c - a);
+    return std::abs(dot(area, q - a)) <= 1e-12 * length(area) * length(box.size());
+}
+
 /// True if some of the inward shells lies where the winding number of the others is not positive.
+/// Each is asked at a vertex; where that lies on another shell it is taken for a cavity.
 bool some_is_no_cavity(const TriangleMesh& mesh, const Shells& shells,
                        const std::vector<bool>& inward) {
     struct Entry {
-        double low, high;  ///< z
-        std::uint32_t triangle;
+        double low, high;                ///< z
+        std::uint32_t triangle, vertex;  ///< the latter of those asked
     };
+    const std::vector<bool> touching = touching_vertices(mesh, shells);
     const auto by_height = [](const Entry& a, const Entry& b) { return a.low < b.low; };
     std::vector<Entry> triangles, asked;
     std::vector<bool> is_asked(shells.count, false);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto [a, b, c] = mesh.triangles[i];
         const double za = mesh.positions[a].z, zb = mesh.positions[b].z, zc = mesh.positions[c].z;
-        triangles.push_back({std::min({za, zb, zc}), std::max({za, zb, zc}), i});
-        const std::uint32_t shell = shells.of_vertex[a];
-        if (!inward[shell] || is_asked[shell]) continue;
-        is_asked[shell] = true;
-        asked.push_back({za, za, i});
+        triangles.push_back({std::min({za, zb, zc}), std::max({za, zb, zc}), i, a});
+        const std::uint32_t shell = shells.of_triangle[i];
+        if (!inward[shell]) continue;
+        for (const std::uint32_t v : mesh.triangles[i]) {
+            if (touching[v] || is_asked[shell]) continue;
+            is_asked[shell] = true;
+            asked.push_back({mesh.positions[v].z, mesh.positions[v].z, i, v});
+        }
     }
     interruptible_sort(triangles.begin(), triangles.end(), by_height);
     interruptible_sort(asked.begin(), asked.end(), by_height);
@@ -123,15 +184,18 @@ bool some_is_no_cavity(const TriangleMesh& mesh, const Shells& shells,
         interruption_point();
         for (; next != triangles.end() && next->low <= at.low; ++next) here.push_back(*next);
         std::erase_if(here, [&](const Entry& e) { return e.high < at.low; });
-        const std::uint32_t vertex = mesh.triangles[at.triangle][0];
+        const Vec3& q = mesh.positions[at.vertex];
         int winding = 0;
+        bool on_other = false;
         for (const Entry& e : here) {
-            const auto [a, b, c] = mesh.triangles[e.triangle];
-            if (shells.of_vertex[a] == shells.of_vertex[vertex]) continue;
-            winding += passes_ahead(mesh.positions[a], mesh.positions[b], mesh.positions[c],
-                                    mesh.positions[vertex]);
+            if (shells.of_triangle[e.triangle] == shells.of_triangle[at.triangle]) continue;
+            const Corners& t = mesh.triangles[e.triangle];
+            const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]],
+                       &c = mesh.positions[t[2]];
+            winding += passes_ahead(a, b, c, q);
+            on_other = on_other || touches(a, b, c, q);
         }
-        if (winding <= 0) return true;
+        if (winding <= 0 && !on_other) return true;
     }
     return false;
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// The shells of a mesh: sets of triangles that are connected by vertices.
+/// The shells of a mesh: sets of triangles that are connected by edges.
 ///
 /// Conventions: vertices of equal position are merged, where the mesh has more than one shell
-/// without that.
+/// without that. An inward shell whose vertex lies on another shell counts as a cavity.
 /// Complexity: O(n log n); of n inward shells a sweep with those triangles of others that are as
 /// high as a point of theirs.
 

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kLeastQuotient = 1e-280;
 
-/// Below this share of the largest triangle of its vertices, the signed area of a polygon, whose
-/// loops then cross, says nothing about its plane.
-constexpr double kLeastSigned = 1e-9;
+/// Newell's normal is dropped where the vertices are this many times farther off its plane than off
+/// that of their largest triangle, and farther than that share of their reach.
+constexpr double kTimesFarther = 4.0, kShareOfReach = 1e-9;
 
 /// Newell's normal: the sum over the edges of (a - origin) x (b - origin); its length is twice the
 /// signed area.
@@ -50,12 +50,27 @@ Vec3 largest_triangle(const std::vector<Vec3>& vertices) {
     return largest;
 }
 
-/// Along the normal: Newell's, or where parts of opposite orientation cancel, as in a bow tie, the
-/// largest triangle's.
+/// The extent of the vertices along `normal`, times its length.
+double extent_along(const Vec3& normal, const std::vector<Vec3>& vertices) {
+    Interval range;
+    for (const Vec3& v : vertices) range.include(dot(normal, v - vertices.front()));
+    return range.width();
+}
+
+/// Along the normal: Newell's, or where parts of opposite orientation cancel, as in a bow tie, so
+/// that it is due to vertices off the plane, the largest triangle's. No plane is many times nearer
+/// to the vertices than that triangle's.
 Vec3 plane_normal(const Polygon& polygon) {
+    const std::vector<Vec3>& vertices = polygon.vertices;
     const Vec3 newell = newell_normal(polygon);
-    const Vec3 spanned = largest_triangle(polygon.vertices);
-    if (length(newell) > kLeastSigned * length(spanned)) return newell;
+    const Vec3 spanned = largest_triangle(vertices);
+    // A sum as long as that is not due to vertices off the plane.
+    if (length(newell) >= length(spanned)) return newell;
+    double reach = 0.0;
+    for (const Vec3& v : vertices) reach = std::max(reach, length(v - vertices.front()));
+    const double allowed =
+        kTimesFarther * extent_along(spanned, vertices) + kShareOfReach * reach * length(spanned);
+    if (extent_along(newell, vertices) / length(newell) < allowed / length(spanned)) return newell;
     return dot(newell, spanned) < 0.0 ? -spanned : spanned;
 }
 

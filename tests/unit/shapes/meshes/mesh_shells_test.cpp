@@ -91,6 +91,37 @@ TEST(MeshShells, AShellFacesInwardUnlessItIsACavity) {
     }
 }
 
+TEST(MeshShells, ShellsThatTouchInAVertexAreTwo) {
+    const auto at_corner = [](double size) { return Box3{{1, 1, 1}, Vec3{1, 1, 1} * (1 + size)}; };
+    // Inside at a corner of the large box, of which three faces are flush.
+    const Box3 flush{{1, 1, 1}, {4, 4, 4}};
+    const struct {
+        std::vector<Shell> shells;
+        bool inward;
+    } cases[] = {
+        {{{kSmall, false}, {at_corner(1), true}}, true},
+        {{{kSmall, false}, {at_corner(2), true}}, true},
+        {{{at_corner(0.5), true}, {kSmall, false}}, true},
+        {{{kSmall, false}, {at_corner(2), false}}, false},
+        {{{kLarge, false}, {kSmall, true}, {at_corner(2), true}}, false},
+        {{{kLarge, false}, {flush, true}}, false},
+        {{{flush, true}, {kLarge, false}}, false},
+    };
+    for (const auto& c : cases) {
+        for (const double turn : {0.0, 1.0, 2.0, 3.0}) {
+            TriangleMesh mesh = mesh_of(c.shells);
+            // The order of vertices and triangles relative to the axes.
+            mesh.transform(Affine::rotate({0, 0, 1}, turn * 1.5707963267948966));
+            for (Vec3& v : mesh.positions)
+                v = {std::round(v.x * 2) / 2, std::round(v.y * 2) / 2, v.z};
+            EXPECT_EQ(has_inward_shell(mesh), c.inward) << &c - cases << " " << turn;
+            EXPECT_EQ(has_inward_shell(soup_of(mesh)), c.inward) << &c - cases << " " << turn;
+            std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+            EXPECT_EQ(has_inward_shell(mesh), c.inward) << &c - cases << " " << turn;
+        }
+    }
+}
+
 TEST(MeshShells, OnlyClosedAndOrientedMeshesHaveAnInside) {
     TriangleMesh open = mesh_of({{kLarge, true}}), crooked = open;
     open.triangles.pop_back();

@@ -82,6 +82,77 @@ TEST(Polygon, ABowTieWhoseHalvesCancelIsHitInBoth) {
     EXPECT_NEAR(4.0 * hits / kRays, 2.0, 0.1);  // the area
 }
 
+TEST(Polygon, CornersOffThePlaneOfLoopsThatCancelTurnTheNormalByTheirDistanceAlone) {
+    const std::vector<std::vector<Vec3>> loops = {
+        {{-1, -1, 0}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}},
+        // Of the halves the right one is larger by 2e-6.
+        {{-1, -1, 0}, {1, 1, 0}, {1 + 1e-6, -1, 0}, {-1, 1, 0}},
+        // A narrow one.
+        {{-1, -1e-4, 0}, {1, 1e-4, 0}, {1, -1e-4, 0}, {-1, 1e-4, 0}},
+        // Two squares of opposite orientation that meet in a vertex.
+        {{0, 0, 0},
+         {1, 0, 0},
+         {1, 1, 0},
+         {0, 1, 0},
+         {0, 0, 0},
+         {0, -1, 0},
+         {-1, -1, 0},
+         {-1, 0, 0}},
+    };
+    const Affine aslant = Affine::rotate({1, -2, 0.5}, 0.9);
+    for (const auto& loop : loops) {
+        const double width = std::abs(loop[1].y) > 1e-3 ? 1.0 : 1e-4;
+        for (const double off : {0.0, 1e-15, 1e-12, 1e-9, 6e-8, 1e-6, 3e-5}) {
+            for (std::size_t corner = 0; corner < loop.size(); ++corner) {
+                for (const Affine& place : {Affine(), aslant}) {
+                    std::vector<Vec3> vertices = loop;
+                    vertices[corner].z += off * width;
+                    for (Vec3& v : vertices) v = place.point(v);
+                    const Polygon p = polygon(vertices);
+                    // A plane through corners of the loop deviates from another by less.
+                    const double most = 4.0 * off * width + 2e-9;
+                    EXPECT_LT(p.off_plane, most) << &loop - loops.data() << " " << corner;
+                    EXPECT_GT(std::abs(dot(p.normal, place.vector({0, 0, 1}))), 1 - 1e-6)
+                        << &loop - loops.data() << " " << corner << " " << off;
+                }
+            }
+        }
+    }
+}
+
+TEST(Polygon, TheNormalOfASimplePolygonIsNewells) {
+    Random random(63);
+    for (int i = 0; i < 3000; ++i) {
+        // Star-shaped around the origin, or a narrow frame; corners off the plane.
+        const int n = 4 + random.below(30);
+        const bool frame = random.coin();
+        const double off = i % 4 == 0 ? 0.0 : random.log_uniform(1e-12, 0.1);
+        const Affine place = Affine::rotate(random.unit_vector(), random.uniform(0, 6));
+        std::vector<Vec3> vertices;
+        for (int loop = 0; loop < 1 + frame; ++loop) {
+            for (int k = 0; k < n; ++k) {
+                const double turn = loop == 0 ? 1.0 : -1.0;
+                const double angle = turn * 6.283185307179586 * (k + 0.5 * random.uniform()) / n;
+                const double r = frame ? (loop == 0 ? 1.0 : 0.6) : random.uniform(0.7, 1.4);
+                vertices.push_back(place.point(
+                    {r * std::cos(angle), r * std::sin(angle), random.uniform(-off, off)}));
+            }
+        }
+        const auto count = static_cast<std::uint32_t>(n);
+        const Polygon p = polygon(vertices, frame ? std::vector<std::uint32_t>{count, 2 * count}
+                                                  : std::vector<std::uint32_t>{count});
+        Vec3 sum;
+        for (std::size_t loop = 0; loop < p.loop_ends.size(); ++loop) {
+            const std::size_t first = loop == 0 ? 0 : p.loop_ends[loop - 1];
+            for (std::size_t k = first; k < p.loop_ends[loop]; ++k) {
+                const Vec3& next = vertices[k + 1 < p.loop_ends[loop] ? k + 1 : first];
+                sum += cross(vertices[k] - vertices.front(), next - vertices.front());
+            }
+        }
+        ASSERT_EQ(p.normal, normalize(sum)) << "seed 63, case " << i;
+    }
+}
+
 TEST(Polygon, OddEvenRuleAgreesWithTheAngleAroundThePoint) {
     Random random(61);
     int inside_count = 0;
