@@ -36,6 +36,8 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
     const bool by_distance = !material.physical && !material.transmissive.is_black() &&
                              conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
     Crossing result;
+    const bool behind_wall = !leaving && surface.media.before && surface.media.after;
+    if (!behind_wall) volumes.forget_left();
     if (conventions.shadow_tint == ShadingConventions::ShadowTint::Opaque) {
         result.surface = {};
     } else if (!by_distance) {
@@ -48,11 +50,13 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
         result.way = volumes.through(length);
     }
     if (!medium.physical && !(by_distance && closed)) return result;
+    const Rgb kt = by_distance ? medium.transmissive : Rgb{1, 1, 1};
     if (leaving) {
         volumes.leave(body_of(surface));
+    } else if (behind_wall) {
+        volumes.enter_behind_wall(medium.absorption, kt, body_of(surface));
     } else {
-        volumes.enter(medium.absorption, by_distance ? medium.transmissive : Rgb{1, 1, 1},
-                      body_of(surface));
+        volumes.enter(medium.absorption, kt, body_of(surface));
     }
     return result;
 }

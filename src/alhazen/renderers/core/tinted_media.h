@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "alhazen/imaging/image/rgb.h"
@@ -34,7 +35,10 @@ namespace alhazen {
 /// The volumes around a ray that passes surfaces without bending, innermost last.
 class CrossedVolumes {
   public:
-    void clear() { volumes_.clear(); }
+    void clear() {
+        volumes_.clear();
+        left_.reset();
+    }
     [[nodiscard]] bool empty() const { return volumes_.empty(); }
     /// `kt`: transmittance of a unit of length, in addition to the absorption. `body`: what bounds
     /// the volume; 0 is unknown.
@@ -43,13 +47,22 @@ class CrossedVolumes {
     }
     /// Leaves the body, or the innermost volume if it is not around the ray.
     void leave(std::uint64_t body) {
-        for (std::size_t k = volumes_.size(); k-- > 0;) {
-            if (volumes_[k].body != body) continue;
-            volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(k));
-            return;
-        }
-        if (!volumes_.empty()) volumes_.pop_back();
+        left_.reset();
+        if (volumes_.empty()) return;
+        std::size_t k = volumes_.size();
+        while (k > 0 && volumes_[k - 1].body != body) --k;
+        left_ = k > 0 ? k - 1 : volumes_.size() - 1;
+        volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(*left_));
     }
+    /// At a wall of a body: its next medium is in the place of the one that was left there.
+    void enter_behind_wall(const Rgb& absorption, const Rgb& kt, std::uint64_t body) {
+        const std::size_t place = left_.value_or(volumes_.size());
+        volumes_.insert(volumes_.begin() + static_cast<std::ptrdiff_t>(place),
+                        {absorption, kt, body});
+        left_.reset();
+    }
+    /// Until `leave`, no volume is one that was left.
+    void forget_left() { left_.reset(); }
     /// The transmittance of the innermost volume; white outside.
     [[nodiscard]] Rgb through(double distance) const {
         if (volumes_.empty()) return {1, 1, 1};
@@ -64,6 +77,7 @@ class CrossedVolumes {
         std::uint64_t body;
     };
     std::vector<Volume> volumes_;
+    std::optional<std::size_t> left_;  ///< place of the volume that was left last
 };
 
 /// The closed bodies around rays where kt is the transmittance of a unit of length

@@ -394,9 +394,9 @@ void ExactOptics::turn(const Material& material, const SurfaceLookup& lookup, do
 
 void ExactOptics::turn(double dielectric, double cosine, double here, double beyond,
                        MaterialSample& sample) const {
-    // The material's reflectance is that against index 1.
+    // The material's reflectance is that against index 1; an index of 0 has no other.
     const double thin = std::min(here, beyond), dense = std::max(here, beyond);
-    const bool as_evaluated = thin == 1.0 && (dense == 1.0 || dense == sample.index);
+    const bool as_evaluated = thin == 1.0 && (dense == sample.index || !(sample.index > 0.0));
     turn_to_view_between(sample, cosine, here / beyond, !as_evaluated && dielectric > 0.0,
                          optics_.fresnel ? dielectric : 0.0);
 }

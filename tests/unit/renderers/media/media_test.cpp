@@ -184,6 +184,33 @@ TEST(Media, ShadowRaysEnterAndLeaveVolumesNearerThanTheLeastDistance) {
     }
 }
 
+/// Clear, of that absorption and the index of the air.
+Material absorbing(double absorption) {
+    Material m;
+    m.dielectric = Dielectric{{absorption, absorption, absorption}};
+    m.index.value = 1.0;
+    return m;
+}
+
+TEST(Media, ShadowRaysInAVolumeAcrossAWallStayInIt) {
+    for (const bool box_first : {false, true}) {
+        SceneMaker maker;
+        maker.add(Rectangle{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}}, maker.material(white()));
+        maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+        const BoxShape box{{-4, -4, 2.5}, {4, 4, 3.5}};
+        if (box_first) maker.add(box, maker.material(absorbing(1)));
+        const ObjectIndex solid = maker.object("solid");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(BoxShape{{-4, -4, 2}, {4, 4, 3}}, maker.material(absorbing(0.1)), {}, solid);
+        maker.add(BoxShape{{-4, -4, 3}, {4, 4, 4}}, maker.material(absorbing(0.3)), {}, solid);
+        maker.add(solid);
+        if (!box_first) maker.add(box, maker.material(absorbing(1)));
+        const double left = std::exp(-0.05 - 1 - 0.15);
+        expect_seen(maker, {left, left, left}, box_first ? "box first" : "solid first", 3,
+                    {0.1, 0.2, 1});
+    }
+}
+
 TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
     for (const bool lamp : {false, true}) {
         for (const bool inward : {false, true}) {
