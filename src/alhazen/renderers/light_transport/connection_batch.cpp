@@ -187,7 +187,7 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
-        faces_.find(point, ray.direction, arrival, mask_for(kind));
+        faces_.find_next_to_sheets(point, ray.direction, arrival, mask_for(kind));
         crossed_.clear();
         for (const OtherFace& other : faces_.others()) crossed_.push_back(other.inside.part);
         // Rays hit it twice.

@@ -29,6 +29,10 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
 }
 
+Spectrum over(const Spectrum& x, const Spectrum& y) {
+    return {x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d};
+}
+
 /// True if boundaries between volumes of the same index are passed straight at the surface: in
 /// scenes with scattering volumes, or if its materials may have the index of the air.
 bool may_be_null_boundary(const Scene& scene, const Surface& surface) {
@@ -98,6 +102,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     enters_volume_ = enters_volume(point);
     is_wall_ = is_wall(surface);
     media_known_ = point.behind.known;
+    if (thin_ && !others_.empty() && !(eta_of_faces(scene, media, waves) == Spectrum::all(1))) {
+        others_.clear();
+    }
     const Spectrum all = etas(scene, point, media, waves);
     if (point.coat_is_tilted) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
@@ -131,24 +138,24 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     }
 }
 
+Spectrum ScatterPoint::eta_of_faces(const Scene& scene, const MediumStack& media,
+                                    const Wavelengths& waves) const {
+    MediumStack behind = media;
+    cross(behind);
+    const auto index = [&](const Medium* m) {
+        return m == nullptr ? Spectrum::all(scene.conventions.shading.air_index)
+                            : index_of(scene.materials[m->material], m->index, waves);
+    };
+    return over(index(media.here()), index(behind.here()));
+}
+
 Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
                             const Wavelengths& waves) const {
-    const auto over = [](const Spectrum& x, const Spectrum& y) {
-        return Spectrum{x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d};
-    };
     const double air = scene.conventions.shading.air_index;
     const auto material = [&](std::uint32_t i) -> const Material& { return scene.materials[i]; };
     const double own = point.material->index;
     if (!media_known_ && (thin_ || !(own > 0.0))) return {};
-    if (!others_.empty()) {
-        MediumStack behind = media;
-        cross(behind);
-        const auto index = [&](const Medium* m) {
-            return m == nullptr ? Spectrum::all(air)
-                                : index_of(material(m->material), m->index, waves);
-        };
-        return over(index(media.here()), index(behind.here()));
-    }
+    if (!others_.empty()) return eta_of_faces(scene, media, waves);
     if (media_known_) {
         const SurfaceMedia& stated = point.surface.media;
         // Within another volume, the innermost, nothing changes.
@@ -415,11 +422,11 @@ double ScatterPoint::importance_correction(const Vec3& direction) const {
 }
 
 void ScatterPoint::cross(MediumStack& media) const {
-    if (thin_) return;
+    const bool bounds = !thin_;
     // Volumes are left before others are entered: new ones are innermost.
-    if (is_wall_) {
+    if (bounds && is_wall_) {
         media.change(inside_);
-    } else if (!enters_volume_) {
+    } else if (bounds && !enters_volume_) {
         media.leave(inside_);
     }
     for (const OtherFace& other : others_) {
@@ -432,7 +439,7 @@ void ScatterPoint::cross(MediumStack& media) const {
     for (const OtherFace& other : others_) {
         if (other.entering && other.around) media.enter(other.inside);
     }
-    if (enters_volume_) media.enter(inside_);
+    if (bounds && enters_volume_) media.enter(inside_);
     for (const OtherFace& other : others_) {
         if (other.entering && !other.around) media.enter(other.inside);
     }

@@ -132,6 +132,9 @@ class ScatterPoint {
     /// Sets the BSDF at the point: shared, copied from the cache or made.
     void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place,
                   BsdfCache* known);
+    /// The index before all faces over that behind them, by wavelength.
+    [[nodiscard]] Spectrum eta_of_faces(const Scene& scene, const MediumStack& media,
+                                        const Wavelengths& waves) const;
     /// The index on the side of the view over that behind, by wavelength; 0: that of the material.
     [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
                                 const MediumStack& media, const Wavelengths& waves) const;

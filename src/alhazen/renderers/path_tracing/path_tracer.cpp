@@ -176,9 +176,15 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
     if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
     faces_.find(point, ray.direction, arrival, mask_of(path.kind));
-    if (!faces_.opaque()) return stop(path, ray, hit, point, sum);
-    set_shading_point(scene_, faces_.ray(), *faces_.opaque(), arrival, {}, opaque_face_);
-    stop(path, ray, *faces_.opaque(), opaque_face_, sum);
+    std::optional<Hit> met = faces_.opaque();
+    if (!met && faces_.sheet()) {
+        passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
+        if (passed_.is_null_boundary()) met = faces_.sheet();
+    }
+    if (!met) return stop(path, ray, hit, point, sum);
+    set_shading_point(scene_, faces_.ray(), *met, arrival, {}, other_face_);
+    if (!faces_.opaque()) faces_.find(other_face_, ray.direction, arrival, mask_of(path.kind));
+    stop(path, ray, *met, other_face_, sum);
 }
 
 void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,

@@ -233,7 +233,7 @@ class PathTracer {
     LightDraws draws_;
     std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
-    ShadingPoint opaque_face_;  ///< an opaque coincident face that is hit instead
+    ShadingPoint other_face_;  ///< a coincident surface that is hit instead
     ScatteringMedia media_;
     MediumStack behind_;             ///< media behind the current surface
     LightLayers* layers_;            ///< null: no layers

@@ -69,10 +69,12 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
                            RayMask mask) {
     others_.clear();
     opaque_.reset();
+    sheet_.reset();
+    if (!kinds_ || point.material->coverage < 1.0) return;
     const Surface& surface = point.surface;
-    const auto material = static_cast<std::size_t>(surface.materials[0]);
-    if (!kinds_ || (*kinds_)[material] != Kind::BoundsVolume) return;
-    if (point.material->thin || point.material->coverage < 1.0) return;
+    const Kind kind = (*kinds_)[static_cast<std::size_t>(surface.materials[0])];
+    const bool is_sheet = point.material->thin;
+    if (is_sheet ? kind == Kind::Opaque || surface.media.known : kind != Kind::BoundsVolume) return;
     ray_ = CoincidentSurfaces::around(surface, direction);
     hits_.clear();
     scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
@@ -81,12 +83,24 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
         if (parts_of(*scene_.aggregate, hit) == own) continue;
         look_at(hit, volume_number(surface), arrival);
     }
+    if (is_sheet) sheet_.reset();
     if (opaque_) {
         others_.clear();
+        sheet_.reset();
+        if (is_sheet) opaque_.reset();
     } else if (!others_.empty()) {
         const Medium inside = volume_of(scene_, point);
-        sort_entered(point, enters_volume(point) ? &inside : nullptr, direction, arrival, mask);
+        const bool enters = !is_sheet && enters_volume(point);
+        sort_entered(point, enters ? &inside : nullptr, direction, arrival, mask);
     }
+}
+
+void CoincidentFaces::find_next_to_sheets(const ShadingPoint& point, const Vec3& direction,
+                                          const Arrival& arrival, RayMask mask) {
+    if (!point.material->thin) return find(point, direction, arrival, mask);
+    others_.clear();
+    opaque_.reset();
+    sheet_.reset();
 }
 
 bool CoincidentFaces::may_bound(const Hit& hit) const {
@@ -130,11 +144,17 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     std::swap(others_, faces);
     others_.clear();
     opaque_.reset();
+    sheet_.reset();
 }
 
 void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
-    if (other_.material->thin || other_.material->coverage < 1.0) return;
+    if (other_.material->coverage < 1.0) return;
+    if (other_.material->thin) {
+        const auto id = static_cast<std::size_t>(other_.surface.materials[0]);
+        if (!sheet_ && (*kinds_)[id] != Kind::Opaque && !other_.surface.media.known) sheet_ = hit;
+        return;
+    }
     const bool known = other_.surface.media.known;
     if (known) {
         // Rays hit a wall twice.

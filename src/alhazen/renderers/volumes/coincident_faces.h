@@ -8,7 +8,9 @@
 /// with the BSDF of the face that was hit. Of volumes entered together the one that is left last is
 /// outermost, independent of the order of the parts; if no ray distinguishes them, the one of the
 /// lowest primitive. A solid of several media is one volume; a face of it may be a wall between two
-/// of them. Partly covering faces and thin sheets are ignored.
+/// of them. Partly covering faces are ignored.
+/// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
+/// at a boundary that refracts, the one that was hit is met alone.
 
 #include <array>
 #include <cstddef>
@@ -47,10 +49,15 @@ class CoincidentFaces {
     /// Finds the faces at the point where a ray along `direction` hit a surface.
     void find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
               RayMask mask);
+    /// As `find`, for rays that meet all surfaces at a place one by one: none at a thin sheet.
+    void find_next_to_sheets(const ShadingPoint& point, const Vec3& direction,
+                             const Arrival& arrival, RayMask mask);
     /// The faces that are crossed with the surface.
     [[nodiscard]] const OtherFaces& others() const { return others_; }
     /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
+    /// The hit of a thin sheet along `ray()` at a face that bounds a volume.
+    [[nodiscard]] const std::optional<Hit>& sheet() const { return sheet_; }
     /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 
@@ -98,7 +105,7 @@ class CoincidentFaces {
     OtherFaces sorted_;
     std::vector<Entered> entered_;
     std::vector<Within> within_;
-    std::optional<Hit> opaque_;
+    std::optional<Hit> opaque_, sheet_;
     ShadingPoint other_;
 };
 

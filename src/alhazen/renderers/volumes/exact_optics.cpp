@@ -82,6 +82,12 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
     const MaterialSample& met = *point.material;
     const Sides sides =
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
+    const auto id = static_cast<std::size_t>(point.surface.materials[0]);
+    if (faces_.sheet() && sides.here == sides.beyond &&
+        may_be_null_boundary(scene_.materials[id], scene_.conventions.shading.air_index)) {
+        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.sheet()), arrival,
+                                 {.optics = this}, point);
+    }
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
     point.medium_is_physical = met.physical || !tints_events_;
@@ -178,7 +184,7 @@ ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialS
 const OtherFaces& ExactOptics::faces_at(const Ray& ray, const Hit& crossing, float time) {
     const Arrival arrival{.time = time};
     set_shading_point(scene_, ray, crossing, arrival, {}, crossed_);
-    faces_.find(crossed_, ray.direction, arrival, mask_of(RayKind::Shadow));
+    faces_.find_next_to_sheets(crossed_, ray.direction, arrival, mask_of(RayKind::Shadow));
     return faces_.others();
 }
 
@@ -188,7 +194,12 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
     const bool known = surface.media.known;
     if (known || (!others.empty() && bounds_a_volume(material) &&
                   !is_open(material.physical, surface.part))) {
-        return sides_of_all(face_of(surface, material, entering), around, others);
+        const Face own = face_of(surface, material, entering);
+        return sides_of_all(&own, around, others);
+    }
+    if (material.thin && !others.empty()) {
+        const Sides all = sides_of_all(nullptr, around, others);
+        if (all.here == all.beyond) return all;
     }
     Sides sides{media_[around].index, material.index, around};
     if (bounds_a_volume(material)) {
@@ -229,12 +240,10 @@ ExactOptics::Face ExactOptics::face_of(const Surface& surface, const MaterialSam
     return face;
 }
 
-ExactOptics::Sides ExactOptics::sides_of_all(const Face& own, std::uint32_t around,
+ExactOptics::Sides ExactOptics::sides_of_all(const Face* own, std::uint32_t around,
                                              const OtherFaces& others) {
-    Sides sides{.here = media_[around].index,
-                .behind = around,
-                .joined = !others.empty(),
-                .before = own.tint};
+    Sides sides{.here = media_[around].index, .behind = around, .joined = !others.empty()};
+    if (own != nullptr) sides.before = own->tint;
     const auto has_inside = [&](const OtherFace& other) {
         return other.known ||
                !is_open(other.physical, static_cast<std::uint32_t>(other.inside.part));
@@ -246,13 +255,13 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Face& own, std::uint32_t arou
         }
     };
     // Volumes are left before others are entered: new ones are innermost.
-    if (!own.entering) {
+    if (own != nullptr && !own->entering) {
         const std::uint32_t left =
-            own.wall ? of_part(own.inside, around) : place_of(own.inside, around);
+            own->wall ? of_part(own->inside, around) : place_of(own->inside, around);
         // A volume that was not entered is that of the ray.
-        if (left == kOutside || (own.known && left == around)) sides.here = own.index;
+        if (left == kOutside || (own->known && left == around)) sides.here = own->index;
         sides.joined = sides.joined || (left != kOutside && left != around);
-        sides.behind = own.wall ? changed(own.inside, around) : without(own.inside, around);
+        sides.behind = own->wall ? changed(own->inside, around) : without(own->inside, around);
     }
     for (const OtherFace& other : others) {
         if (!other.entering && has_inside(other)) {
@@ -262,7 +271,7 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Face& own, std::uint32_t arou
         if (!other.physical && tints_events_) sides.before = sides.before * other.kt;
     }
     enter_those(true);
-    if (own.entering) sides.behind = enter(own.inside, sides.behind);
+    if (own != nullptr && own->entering) sides.behind = enter(own->inside, sides.behind);
     enter_those(false);
     sides.beyond = media_[sides.behind].index;
     if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;

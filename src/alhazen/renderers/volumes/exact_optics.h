@@ -102,8 +102,8 @@ class ExactOptics final : public SurfaceOptics {
     };
     [[nodiscard]] Face face_of(const Surface& surface, const MaterialSample& material,
                                bool entering) const;
-    /// The sides of faces that are crossed at once.
-    [[nodiscard]] Sides sides_of_all(const Face& own, std::uint32_t around,
+    /// The sides of faces that are crossed at once. `own`: that was hit; null: a thin sheet was.
+    [[nodiscard]] Sides sides_of_all(const Face* own, std::uint32_t around,
                                      const OtherFaces& others);
     [[nodiscard]] Medium medium_of(const Surface& surface, const MaterialSample& sample) const;
     [[nodiscard]] Medium medium_of(const OtherFace& face) const;

@@ -376,7 +376,7 @@ class RecursiveEstimator {
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
-        if (!material.thin) {
+        if (!material.thin || (optics_ && point.behind.joined)) {
             const BehindSurface& behind = point.behind;
             onward.inside = behind.known ? behind.inside : point.entering;
             onward.absorption = behind.known     ? behind.absorption

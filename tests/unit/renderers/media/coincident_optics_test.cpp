@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "alhazen/renderers/whitted/whitted.h"
 #include "alhazen/shading/optics/fresnel.h"
+#include "support/light_pictures.h"
 #include "support/scene_maker.h"
 #include "unit/renderers/media/layers.h"
 #include "unit/renderers/one_pixel.h"
@@ -178,6 +180,46 @@ TEST(CoincidentOptics, ShadowRaysCrossTouchingFacesAsOne) {
 
 /// The volume entered last is the innermost: none of the indices changes where the other is left.
 /// From below it is the other one, with the same reflections.
+/// A thin sheet that passes a share of the light straight.
+Material clear_sheet(double share) {
+    Material m;
+    m.index.value = 1.0;
+    MetallicRoughness& p = m.metallic_roughness.emplace();
+    p.base_color.color = {share, share, share};
+    p.metallic.value = p.roughness.value = 0.0;
+    p.transmission.value = 1.0;
+    return m;
+}
+
+TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
+    // Volumes of the index of the air, and a block of one index in two halves.
+    for (const bool halves : {false, true}) {
+        std::vector<int> order{0, 1, 2};
+        do {
+            SceneMaker maker = above_a_light();
+            const double index = halves ? 1.5 : 1.0;
+            for (const int i : order) {
+                if (i == 0) maker.add(box(0, 1), maker.material(physical({index, 1.0})));
+                if (i == 1) maker.add(box(1, 2), maker.material(physical({index, 2.0})));
+                if (i == 2) {
+                    maker.add(Rectangle{{-2, -2, 1}, {4, 0, 0}, {0, 4, 0}},
+                              maker.material(clear_sheet(0.5)));
+                }
+            }
+            const Scene scene = maker.compile();
+            for (const char* renderer :
+                 {"whitted", "distributed", "path_tracing", "bidirectional", "sppm"}) {
+                if (halves && std::string_view(renderer) != "whitted") continue;
+                SCOPED_TRACE(renderer);
+                const double t = halves ? 0.96 * 0.96 * std::exp(-3.0) * 0.5 : 0.5 * std::exp(-3.0);
+                const Rgb c = testing::picture_of(scene, renderer, 1, 4).at(0, 0);
+                // Reflections between the ends of the block are below exp(-6).
+                expect_near(c, {t, t, t}, halves ? t * 1e-4 : 1e-6);
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+}
+
 TEST(CoincidentOptics, OverlappingVolumesAreLeftInAnyOrder) {
     const Layer above{1.5, 0, 2}, below{1.7, 0, 2};
     for (const auto material : {&physical, &by_kt}) {
