@@ -65,12 +65,13 @@ Vec3 plane_normal(const Polygon& polygon) {
     const Vec3 newell = newell_normal(polygon);
     const Vec3 spanned = largest_triangle(vertices);
     // A sum as long as that is not due to vertices off the plane.
-    if (length(newell) >= length(spanned)) return newell;
+    const double own = length(newell), wide = length(spanned);
+    if (own >= wide) return newell;
     double reach = 0.0;
     for (const Vec3& v : vertices) reach = std::max(reach, length(v - vertices.front()));
     const double allowed =
-        kTimesFarther * extent_along(spanned, vertices) + kShareOfReach * reach * length(spanned);
-    if (extent_along(newell, vertices) / length(newell) < allowed / length(spanned)) return newell;
+        kTimesFarther * extent_along(spanned, vertices) + kShareOfReach * reach * wide;
+    if (own > 0.0 && extent_along(newell, vertices) / own < allowed / wide) return newell;
     return dot(newell, spanned) < 0.0 ? -spanned : spanned;
 }
 
