@@ -6,11 +6,12 @@ namespace alhazen {
 
 namespace {
 
-/// Identifies what bounds the volumes of a surface; a solid of several media is one body.
-std::uint64_t body_of(const Surface& surface) {
+/// The volume that a surface bounds; a solid of several media is one body.
+Body body_of(const Surface& surface) {
     const SurfaceMedia& media = surface.media;
-    if (media.known) return media.solid;
-    return std::uint64_t{surface.instance} << 32 | surface.part;
+    if (media.known) return {.part = media.solid};
+    return {std::uint64_t{surface.instance} << 32 | surface.part,
+            static_cast<std::uint32_t>(volume_material(surface))};
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, Tinte
                                    std::uint32_t around) {
     if (point.material->thin) return around;
     const Surface& surface = point.surface;
-    const std::uint64_t body = body_of(surface);
+    const Body body = body_of(surface);
     if (surface.media.known) {
         if (surface.media.before) around = media.leave(body, around);
         return point.behind.inside

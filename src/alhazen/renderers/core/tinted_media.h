@@ -32,6 +32,14 @@ namespace alhazen {
     return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
 }
 
+/// Identifies the volume that a surface bounds. The faces of a solid of one medium belong to
+/// several parts: a volume whose part is not around a ray is the innermost one of its material.
+struct Body {
+    static constexpr std::uint32_t kUnknown = 0xFFFFFFFFu;
+    std::uint64_t part = 0;  ///< or a solid of several media
+    std::uint32_t material = kUnknown;
+};
+
 /// The volumes around a ray that passes surfaces without bending, innermost last.
 class CrossedVolumes {
   public:
@@ -40,22 +48,26 @@ class CrossedVolumes {
         left_.reset();
     }
     [[nodiscard]] bool empty() const { return volumes_.empty(); }
-    /// `kt`: transmittance of a unit of length, in addition to the absorption. `body`: what bounds
-    /// the volume; 0 is unknown.
-    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, std::uint64_t body = 0) {
+    /// `kt`: transmittance of a unit of length, in addition to the absorption.
+    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, const Body& body = {}) {
         volumes_.push_back({absorption, kt, body});
     }
     /// Leaves the body, or the innermost volume if it is not around the ray.
-    void leave(std::uint64_t body) {
+    void leave(const Body& body) {
         left_.reset();
         if (volumes_.empty()) return;
-        std::size_t k = volumes_.size();
-        while (k > 0 && volumes_[k - 1].body != body) --k;
-        left_ = k > 0 ? k - 1 : volumes_.size() - 1;
+        const auto last = [&](const auto& is_it) {
+            std::size_t k = volumes_.size();
+            while (k > 0 && !is_it(volumes_[k - 1].body)) --k;
+            return k;  // behind it; 0: none
+        };
+        std::size_t k = last([&](const Body& b) { return b.part == body.part; });
+        if (k == 0) k = last([&](const Body& b) { return b.material == body.material; });
+        left_ = (k > 0 ? k : volumes_.size()) - 1;
         volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(*left_));
     }
     /// At a wall of a body: its next medium is in the place of the one that was left there.
-    void enter_behind_wall(const Rgb& absorption, const Rgb& kt, std::uint64_t body) {
+    void enter_behind_wall(const Rgb& absorption, const Rgb& kt, const Body& body) {
         const std::size_t place = left_.value_or(volumes_.size());
         volumes_.insert(volumes_.begin() + static_cast<std::ptrdiff_t>(place),
                         {absorption, kt, body});
@@ -74,7 +86,7 @@ class CrossedVolumes {
   private:
     struct Volume {
         Rgb absorption, kt;
-        std::uint64_t body;
+        Body body;
     };
     std::vector<Volume> volumes_;
     std::optional<std::size_t> left_;  ///< place of the volume that was left last
@@ -95,7 +107,7 @@ class TintedMedia {
     /// White outside.
     [[nodiscard]] const Rgb& kt(std::uint32_t medium) const { return media_[medium].kt; }
     [[nodiscard]] std::uint32_t around(std::uint32_t medium) const { return media_[medium].around; }
-    [[nodiscard]] std::uint64_t body(std::uint32_t medium) const { return media_[medium].body; }
+    [[nodiscard]] const Body& body(std::uint32_t medium) const { return media_[medium].body; }
     /// Per unit length, besides kt.
     [[nodiscard]] const Rgb& absorption(std::uint32_t medium) const {
         return media_[medium].absorption;
@@ -104,16 +116,19 @@ class TintedMedia {
     [[nodiscard]] bool is_hidden(std::uint32_t medium) const { return media_[medium].hidden; }
     void hide(std::uint32_t medium) { media_[medium].hidden = true; }
     /// The medium inside a body of `kt` that lies in the medium `around`.
-    [[nodiscard]] std::uint32_t enter(const Rgb& kt, const Rgb& absorption, std::uint64_t body,
+    [[nodiscard]] std::uint32_t enter(const Rgb& kt, const Rgb& absorption, const Body& body,
                                       std::uint32_t around) {
         media_.push_back({kt, absorption, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
-    /// `medium` without the body, or without the innermost one if the body is not among them (faces
-    /// of a solid belong to several parts). Volumes inside the body are kept.
-    [[nodiscard]] std::uint32_t leave(std::uint64_t body, std::uint32_t medium) {
+    /// `medium` without the body, or without the innermost one if the body is not among them.
+    /// Volumes inside the body are kept.
+    [[nodiscard]] std::uint32_t leave(const Body& body, std::uint32_t medium) {
         for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
-            if (media_[k].body == body) return without(k, medium);
+            if (media_[k].body.part == body.part) return without(k, medium);
+        }
+        for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
+            if (media_[k].body.material == body.material) return without(k, medium);
         }
         return media_[medium].around;
     }
@@ -121,7 +136,7 @@ class TintedMedia {
   private:
     struct Medium {
         Rgb kt{1, 1, 1}, absorption;
-        std::uint64_t body = 0;
+        Body body;
         std::uint32_t around = kOutside;
         bool hidden = false;
     };

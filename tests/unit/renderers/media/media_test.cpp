@@ -211,6 +211,35 @@ TEST(Media, ShadowRaysInAVolumeAcrossAWallStayInIt) {
     }
 }
 
+/// A solid of two parts of one material below or above a touching box.
+TEST(Media, ShadowRaysLeaveASolidByAnyOfItsParts) {
+    for (const bool above : {false, true}) {
+        for (const bool box_first : {false, true}) {
+            for (const double least : {0.0, 1e-3}) {
+                SceneMaker maker;
+                maker.description().conventions.shading.min_distance = least;
+                maker.add(Rectangle{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}}, maker.material(white()));
+                maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+                const double bottom = above ? 1 : 2;
+                const BoxShape box{{-4, -4, bottom + 1}, {4, 4, bottom + 2}};
+                const BoxShape below{{-4, -4, bottom - 1}, {4, 4, bottom}};
+                const MaterialId of_box = maker.material(absorbing(0.5));
+                if (box_first) maker.add(above ? box : below, of_box);
+                const MaterialId id = maker.material(absorbing(1));
+                const ObjectIndex solid = maker.object("solid");
+                maker.description().objects.back().combine = Combine::Union;
+                maker.add(BoxShape{{-4, -4, bottom}, {4, 4, bottom + 0.5}}, id, {}, solid);
+                maker.add(BoxShape{{-4, -4, bottom + 0.5}, {4, 4, bottom + 1}}, id, {}, solid);
+                maker.add(solid);
+                if (!box_first) maker.add(above ? box : below, of_box);
+                const double left = std::exp(-1.5);
+                expect_seen(maker, {left, left, left}, box_first ? "box first" : "solid first", 3,
+                            {0.1, 0.2, 0.5});
+            }
+        }
+    }
+}
+
 TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
     for (const bool lamp : {false, true}) {
         for (const bool inward : {false, true}) {
