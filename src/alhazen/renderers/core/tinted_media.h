@@ -52,7 +52,8 @@ class CrossedVolumes {
     void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, const Body& body = {}) {
         volumes_.push_back({absorption, kt, body});
     }
-    /// Leaves the body, or the innermost volume if it is not around the ray.
+    /// Leaves the body; if it is not around the ray, the innermost volume of its material, else the
+    /// innermost of all.
     void leave(const Body& body) {
         left_.reset();
         if (volumes_.empty()) return;
@@ -121,8 +122,7 @@ class TintedMedia {
         media_.push_back({kt, absorption, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
-    /// `medium` without the body, or without the innermost one if the body is not among them.
-    /// Volumes inside the body are kept.
+    /// `medium` without the body, as CrossedVolumes::leave. Volumes inside the body are kept.
     [[nodiscard]] std::uint32_t leave(const Body& body, std::uint32_t medium) {
         for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
             if (media_[k].body.part == body.part) return without(k, medium);
