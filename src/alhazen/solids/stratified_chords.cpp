@@ -6,8 +6,8 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <numeric>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/interruption.h"
@@ -33,14 +33,9 @@ constexpr std::uint64_t kSurveyLines = 7;
 constexpr double kLeastSurveyRadius = 1.1, kMostSurveyRadius = 1.7;
 /// Growth of the number of cells between surveys, and after the last one.
 constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
-/// Share of the variance of a cell along a rim that each of its quarters inherits (h^5).
-constexpr float kRimShare = 1.0f / 32;
-/// Weight of that guess if the quarter itself was surveyed: seven lines may miss a feature.
+/// Weight of the variance that a quarter inherits if it was surveyed itself: seven lines may miss a
+/// feature.
 constexpr float kWeightOfGuess = 0.1f;
-/// Bits of a Morton number: pairs of the bits of x and y, the bit of the first halving foremost.
-constexpr std::uint64_t kAlongX = 0xaaaaaaaaaaaaaaaa, kAlongY = 0x5555555555555555;
-/// Cells of more halvings have the number of one that contains them.
-constexpr unsigned kMostHalvings = 32;
 
 /// Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
 /// cases.
@@ -49,14 +44,6 @@ constexpr double kRuleOfThree = 3.0;
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
-}
-
-/// The Morton number one step along an axis away from the parent; none outside of the patch.
-std::optional<std::uint64_t> step(std::uint64_t place, std::uint64_t axis, std::uint64_t size) {
-    const bool forward = (place & size) != 0;
-    const std::uint64_t moved = (forward ? (place | ~axis) + size : (place & axis) - size) & axis;
-    const bool is_outside = forward ? moved == 0 : (place & axis) == 0;
-    return is_outside ? std::nullopt : std::optional(moved | (place & ~axis));
 }
 
 /// Adds the span a < t < b of the line o + t d, |d| = 1, with a weight.
@@ -123,10 +110,10 @@ StratifiedChords::StratifiedChords(const Measurable& solid, const BundleFrame& f
     right_ = range(frame.right);
     up_ = range(frame.up);
     scale_ = measured == Measured::Area ? 1.0 : length(solid.box().size());
-    find_patches();
+    cells_ = shadow();
 }
 
-void StratifiedChords::find_patches() {
+ChordCells StratifiedChords::shadow() const {
     std::vector<Interval> along_right, along_up;
     solid_.part_extents(frame_.right, along_right);
     solid_.part_extents(frame_.up, along_up);
@@ -138,10 +125,7 @@ void StratifiedChords::find_patches() {
         std::none_of(along_up.begin(), along_up.end(), is_unbounded) && !along_right.empty()) {
         found = chord_patches(along_right, along_up);
     }
-    if (found.size() < 2) {
-        patches_ = {Patch{}};
-        return;
-    }
+    if (found.size() < 2) return ChordCells();
     // A patch's width as float, rounded up: its halves are exact.
     const auto place = [](const Interval& range, const Interval& whole, double shift, double& at,
                           float& width) {
@@ -149,151 +133,34 @@ void StratifiedChords::find_patches() {
         at = (range.lo - shift - whole.lo) / whole.width();
         width = std::nextafter(static_cast<float>(range.width() / whole.width()), kInfinite);
     };
-    covered_ = 0;
+    std::vector<ChordCells::Patch> patches;
     for (const ChordPatch& patch : found) {
-        Patch& p = patches_.emplace_back();
+        ChordCells::Patch& p = patches.emplace_back();
         place(patch.right, right_, dot(frame_.right, center_), p.x, p.width);
         place(patch.up, up_, dot(frame_.up, center_), p.y, p.height);
-        covered_ += p.area();
-        narrowest_[0] = std::min(narrowest_[0], double{p.width});
-        narrowest_[1] = std::min(narrowest_[1], double{p.height});
     }
+    return ChordCells(std::move(patches));
 }
 
 std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
     const auto cells = static_cast<std::size_t>(lines / kLinesPerCell);
     const std::uint64_t before = surveyed_;
-    if (cells_.empty()) make_grid(cells);
+    if (cells_.size() == 0) cells_.make_grid(cells);
     if (cells > cells_.size()) {
         const auto last = static_cast<std::size_t>(double(cells) / kLastGrowth);
         for (;;) {
             survey();
             if (cells_.size() >= last) break;
-            cut(std::min(last, static_cast<std::size_t>(kSurveyGrowth * double(cells_.size()))));
+            cells_.cut(
+                std::min(last, static_cast<std::size_t>(kSurveyGrowth * double(cells_.size()))),
+                share_for_size());
         }
-        cut(cells);
+        cells_.cut(cells, share_for_size());
         sums_ = {};
         casts_ = 0;
     }
     cast();
     return lines_of_round() + surveyed_ - before;
-}
-
-/// Makes about a fourth of this many cells, and at least one for every patch.
-void StratifiedChords::make_grid(std::size_t cells) {
-    for (std::size_t p = 0; p < patches_.size(); ++p) {
-        const Patch& patch = patches_[p];
-        const double wanted = static_cast<double>(cells) * patch.area() / covered_;
-        std::vector<Cell> grid{{patch.x, patch.y, patch.width, patch.height}};
-        grid.front().patch = static_cast<std::uint8_t>(p);
-        while (static_cast<double>(16 * grid.size()) <= wanted) {
-            std::vector<Cell> finer;
-            for (const Cell& c : grid) {
-                for (const Cell& quarter : c.quarters()) finer.push_back(quarter);
-            }
-            grid = std::move(finer);
-        }
-        for (Cell& c : grid) c.quarter = false;
-        cells_.insert(cells_.end(), grid.begin(), grid.end());
-    }
-}
-
-std::array<StratifiedChords::Cell, 4> StratifiedChords::Cell::quarters() const {
-    Cell part = *this;
-    part.width *= 0.5f;
-    part.height *= 0.5f;
-    part.scatter *= kRimShare;
-    for (float& second : part.curvature) second *= 0.25f;
-    part.quarter = true;
-    part.surveyed = false;
-    ++part.level;
-    std::array<Cell, 4> all{part, part, part, part};
-    all[1].y += part.height;
-    all[2].x += part.width;
-    all[3].x += part.width;
-    all[3].y += part.height;
-    if (part.level <= kMostHalvings) {
-        for (std::uint64_t k = 1; k < 4; ++k) all[k].place += k << (64 - 2 * part.level);
-    }
-    return all;
-}
-
-/// Cuts the cells of largest variance, and some of the largest, into four each. Cells that touch
-/// differ by one halving at most.
-void StratifiedChords::cut(std::size_t cells) {
-    if (cells <= cells_.size()) return;
-    const std::size_t wanted = std::min(cells_.size(), (cells - cells_.size() + 2) / 3);
-    std::vector<std::uint32_t> order(cells_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const double share = missed_ < kEnoughMisses ? kCutForSizeIfFull : kCutForSize;
-    const auto for_size = static_cast<std::size_t>(share * static_cast<double>(wanted));
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted - for_size);
-    const auto by = [&](auto&& size) {
-        return [&, size](std::uint32_t a, std::uint32_t b) {
-            const double of_a = size(cells_[a]), of_b = size(cells_[b]);
-            return of_a != of_b ? of_a > of_b : a < b;
-        };
-    };
-    std::vector<bool> is_cut(cells_.size());
-    std::size_t count = 0;
-    const auto by_scatter = by([](const Cell& c) { return c.scatter; });
-    std::nth_element(order.begin(), first, order.end(), by_scatter);
-    std::sort(order.begin(), first, by_scatter);
-    for (auto i = order.begin(); i != first && count < wanted - for_size; ++i) {
-        if (!(cells_[*i].scatter > 0)) break;
-        if (!is_cut[*i]) count += mark(*i, is_cut);
-    }
-    if (count < wanted) {
-        const auto rest =
-            std::partition(order.begin(), order.end(), [&](std::uint32_t i) { return is_cut[i]; });
-        const auto last = rest + static_cast<std::ptrdiff_t>(wanted - count);
-        std::nth_element(rest, last, order.end(), by([](const Cell& c) { return c.area(); }));
-        for (auto i = rest; i != last; ++i) {
-            if (!is_cut[*i]) count += mark(*i, is_cut);
-        }
-    }
-    std::vector<Cell> finer;
-    finer.reserve(cells_.size() + 3 * count);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        const Cell& c = cells_[i];
-        if (!is_cut[i]) {
-            finer.push_back(c);
-            continue;
-        }
-        for (const Cell& quarter : c.quarters()) finer.push_back(quarter);
-    }
-    cells_ = std::move(finer);
-}
-
-std::size_t StratifiedChords::mark(std::size_t cell, std::vector<bool>& is_cut) const {
-    std::size_t count = 0;
-    std::vector<std::size_t> open{cell};
-    is_cut[cell] = true;
-    while (!open.empty()) {
-        const Cell& c = cells_[open.back()];
-        open.pop_back();
-        ++count;
-        if (c.level == 0 || c.level > kMostHalvings) continue;
-        // A larger cell that touches it does so across the sides that it shares with its parent.
-        const std::uint64_t up = std::uint64_t{1} << (64 - 2 * c.level), right = 2 * up;
-        const auto beside = step(c.place, kAlongX, right), above = step(c.place, kAlongY, up);
-        for (const auto& place :
-             {beside, above, beside ? step(*beside, kAlongY, up) : std::nullopt}) {
-            if (!place) continue;
-            const std::size_t other = cell_at(c.patch, *place);
-            if (cells_[other].level >= c.level || is_cut[other]) continue;
-            is_cut[other] = true;
-            open.push_back(other);
-        }
-    }
-    return count;
-}
-
-std::size_t StratifiedChords::cell_at(std::uint8_t patch, std::uint64_t place) const {
-    const auto after = std::partition_point(cells_.begin(), cells_.end(), [&](const Cell& c) {
-        return c.patch != patch ? c.patch < patch : c.place <= place;
-    });
-    return static_cast<std::size_t>(after - cells_.begin()) - 1;
 }
 
 /// Sums of f(cell, its number, scratch, sums), in an order independent of the number of threads.
@@ -308,7 +175,7 @@ StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
             const std::size_t last = std::min(cells_.size(), first + kCellsPerTask);
             for (std::size_t i = first; i < last; ++i) {
                 interruption_point();
-                f(cells_[i], i, found, parts[task]);
+                f(cells_.all()[i], i, found, parts[task]);
             }
         }
     });
@@ -326,7 +193,7 @@ StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
 /// Surveys the cells not surveyed yet.
 void StratifiedChords::survey() {
     const Sums sums =
-        over_cells([&](Cell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
+        over_cells([&](ChordCell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
             if (cell.surveyed) return;
             survey_cell(cell, mix64(key_ ^ mix64(rounds_ << 40 | number)), found, part);
             part.lines += kSurveyLines;
@@ -336,7 +203,7 @@ void StratifiedChords::survey() {
 
 /// The curvature, from a hexagon around the middle. Its difference from the curvature of the parent
 /// cell measures how far the function is from a parabola, in both.
-void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found,
+void StratifiedChords::survey_cell(ChordCell& cell, std::uint64_t bits, LineSpans& found,
                                    Sums& sums) const {
     const double half_x = 0.5 * cell.width, half_y = 0.5 * cell.height;
     const double mx = cell.x + half_x, my = cell.y + half_y;
@@ -371,7 +238,7 @@ void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& fo
         slant += second * 2 * c * s / (1.5 * radius * radius);
         odd += (k == 1 ? -1 : 1) * (there - opposite) / (2 * radius * radius);
     }
-    const Curvature before = cell.curvature;
+    const ChordCell::Curvature before = cell.curvature;
     const double xx = mean + even, yy = mean - even;
     const auto squared = [](double a, double b, double c) { return a * a + 2 * b * b + c * c; };
     const double size = squared(xx, slant, yy);
@@ -389,13 +256,13 @@ void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& fo
 }
 
 void StratifiedChords::cast() {
-    sums_ += over_cells([&](Cell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
+    sums_ += over_cells([&](ChordCell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
         cast_in(cell, number, found, part);
     });
     ++casts_;
 }
 
-void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& found,
+void StratifiedChords::cast_in(ChordCell& cell, std::uint64_t number, LineSpans& found,
                                Sums& sums) const {
     std::uint64_t bits = mix64(key_ ^ mix64(rounds_ << 40 | number));
     // Any row but the constant one.
@@ -416,7 +283,7 @@ void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& foun
 }
 
 /// Two lines opposite each other about the middle of the cell.
-void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found,
+void StratifiedChords::cast_pair(const ChordCell& cell, std::uint64_t bits, LineSpans& found,
                                  Moments& pair, Sums& sums) const {
     const double weight = cell.area() / kLinesPerCell;
     const double half_x = 0.5 * cell.width, half_y = 0.5 * cell.height;
@@ -431,7 +298,7 @@ void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans
         pair.cosines += weight * found.cosines;
     }
     // The model minus its mean over the cell, for both lines.
-    const Curvature& c = cell.curvature;
+    const ChordCell::Curvature& c = cell.curvature;
     const double model = c[0] * (u * u - 1.0 / 3) + 2 * c[1] * u * v + c[2] * (v * v - 1.0 / 3);
     pair.measured = (measured_ == Measured::Area ? pair.cosines : pair.volume) -
                     weight * scale_ * cell.trust * model;
@@ -446,15 +313,19 @@ Vec3 StratifiedChords::cast_line(double x, double y, LineSpans& found, Sums& sum
     return offset;
 }
 
+double StratifiedChords::share_for_size() const {
+    return missed_ < kEnoughMisses ? kCutForSizeIfFull : kCutForSize;
+}
+
 double StratifiedChords::sparsest() const {
     double largest = 0;
-    for (const Cell& c : cells_) largest = std::max(largest, c.area());
-    return static_cast<double>(casts_ * kLinesPerCell) * covered_ / largest;
+    for (const ChordCell& c : cells_.all()) largest = std::max(largest, c.area());
+    return static_cast<double>(casts_ * kLinesPerCell) * cells_.covered() / largest;
 }
 
 double StratifiedChords::unseen_shadow() const {
     if (sums_.all.ends > 0) return 0;
-    return kRuleOfThree / sparsest() * covered_ * right_.width() * up_.width();
+    return kRuleOfThree / sparsest() * cells_.covered() * right_.width() * up_.width();
 }
 
 double StratifiedChords::share() const {

@@ -4,11 +4,12 @@
 /// Implementation of solid_measures.h, which gives source, differences and conventions.
 
 #include <array>
+#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "alhazen/base/progress.h"
 #include "alhazen/sampling/confidence.h"
+#include "alhazen/solids/chord_cells.h"
 #include "alhazen/solids/isolated_solid.h"
 
 namespace alhazen {
@@ -81,8 +82,8 @@ class StratifiedChords {
     /// Area of the surface projected along this direction, every layer counted.
     [[nodiscard]] double projected_area() const { return share() * sums_.all.ends; }
     /// Extents of the narrowest rectangles that the lines fill.
-    [[nodiscard]] double right_width() const { return right_.width() * narrowest_[0]; }
-    [[nodiscard]] double up_width() const { return up_.width() * narrowest_[1]; }
+    [[nodiscard]] double right_width() const { return right_.width() * cells_.narrowest()[0]; }
+    [[nodiscard]] double up_width() const { return up_.width() * cells_.narrowest()[1]; }
     /// Area that a solid's shadow exceeds in at most 5 of 100 cases if no line met the solid; 0 if
     /// one did.
     [[nodiscard]] double unseen_shadow() const;
@@ -94,31 +95,6 @@ class StratifiedChords {
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
   private:
-    /// Second derivatives xx, xy, yy in units of half a cell's sides.
-    using Curvature = std::array<float, 3>;
-    /// A rectangle of the unit square.
-    struct Cell {
-        double x, y;
-        float width, height;
-        float scatter = 0;  ///< estimated variance of the two pairs, in units of scale_
-        Curvature curvature{};
-        float trust = 0;       ///< share of the curvature in the model; 0: no model
-        bool quarter = false;  ///< quarter of a surveyed cell
-        bool surveyed = false;
-        std::uint8_t level = 0;   ///< halvings of its patch
-        std::uint8_t patch = 0;   ///< index of its patch
-        std::uint64_t place = 0;  ///< Morton number of its lower corner in the patch; x before y
-
-        [[nodiscard]] double area() const { return double{width} * height; }
-        [[nodiscard]] std::array<Cell, 4> quarters() const;
-    };
-    /// A rectangle of the unit square that cells fill.
-    struct Patch {
-        double x = 0, y = 0;
-        float width = 1, height = 1;
-
-        [[nodiscard]] double area() const { return double{width} * height; }
-    };
     static constexpr std::uint64_t kLinesPerCell = 4;
     struct Sums {
         Moments all;
@@ -131,18 +107,15 @@ class StratifiedChords {
         Sums& operator+=(const Sums& other);
     };
 
-    void find_patches();
-    void make_grid(std::size_t cells);
+    /// The cells of the patches that the shadows of the solid's parts cover, not made yet.
+    [[nodiscard]] ChordCells shadow() const;
+    /// Of the cells that are cut, those that are cut for their size alone.
+    [[nodiscard]] double share_for_size() const;
     void survey();
-    void survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found, Sums& sums) const;
-    void cut(std::size_t cells);
-    /// Marks a cell to be cut, and all others that must be for it; returns their number.
-    std::size_t mark(std::size_t cell, std::vector<bool>& is_cut) const;
-    /// The cell that contains the place.
-    [[nodiscard]] std::size_t cell_at(std::uint8_t patch, std::uint64_t place) const;
+    void survey_cell(ChordCell& cell, std::uint64_t bits, LineSpans& found, Sums& sums) const;
     void cast();
-    void cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
-    void cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,
+    void cast_in(ChordCell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
+    void cast_pair(const ChordCell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,
                    Sums& sums) const;
     /// Casts the line at a point of the unit square; returns its base point.
     Vec3 cast_line(double x, double y, LineSpans& found, Sums& sums) const;
@@ -155,12 +128,9 @@ class StratifiedChords {
     Vec3 center_;
     std::uint64_t key_;
     Measured measured_;
-    Interval right_, up_;         ///< extent of the base rectangle, relative to the centre
-    double scale_;                ///< unit of the value of a line
-    std::vector<Patch> patches_;  ///< the solid has no shadow elsewhere
-    double covered_ = 1;          ///< area of the patches in the unit square
-    std::array<double, 2> narrowest_{1, 1};  ///< least width and height of the patches
-    std::vector<Cell> cells_;
+    Interval right_, up_;  ///< extent of the base rectangle, relative to the centre
+    double scale_;         ///< unit of the value of a line
+    ChordCells cells_;     ///< the solid has no shadow elsewhere
     std::uint64_t rounds_ = 0, casts_ = 0;  ///< in total; since the cells were last cut
     std::uint64_t inconsistent_ = 0;
     std::uint64_t missed_ = 0;    ///< lines that missed, in total

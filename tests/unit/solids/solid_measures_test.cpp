@@ -11,10 +11,10 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/solids/stratified_chords.h"
 #include "closed_forms.h"
+#include "one_solid.h"
 #include "support/random.h"
 #include "support/random_patches.h"
 #include "support/sphere_mesh.h"
-#include "unit/formats/native/native_scene.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -22,6 +22,7 @@ namespace {
 using testing::known_solids;
 using testing::KnownSolid;
 using testing::LoneScene;
+using testing::OneSolid;
 using testing::SceneMaker;
 
 TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
@@ -70,17 +71,6 @@ TEST(SolidMeasures, CroftonsCountIsNoFinerThanItsLines) {
         missed += m.area_by_crofton.holds(area) ? 0 : 1;
     }
     EXPECT_LE(missed, 7);  // binomial, 60 of 5 %: 1 in 80 has more than 7
-}
-
-TEST(SolidMeasures, ASectionDoesNotDependOnTheLengthOfTheNormal) {
-    const LoneScene scene(known_solids()[0]);
-    const SectionArea one = section_area(scene.solid, {{1, 1, 0}, 0.1});
-    EXPECT_GT(one.area.value, 0.1);
-    for (const double size : {0x1p-1000, 0x1p-600, 0x1p600}) {
-        const SectionArea other = section_area(scene.solid, {{size, size, 0}, 0.1 * size});
-        EXPECT_EQ(other.area.value, one.area.value) << size;
-        EXPECT_EQ(other.area.half_width, one.area.half_width) << size;
-    }
 }
 
 TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
@@ -216,62 +206,6 @@ TEST(SolidMeasures, AMeshHasTheFiguresOfTheDivergenceTheorem) {
     EXPECT_TRUE(m.directions_agree);
 }
 
-TEST(SolidMeasures, TheLensOfTwoSpheresIsTheirOverlap) {
-    SceneMaker maker;
-    maker.add(Sphere{{0, 0, 0}, 1});
-    maker.add(Sphere{{0.6, 0.8, 0}, 1});
-    maker.add(Sphere{{5, 0, 0}, 1});
-    const SolidList solids(maker.compile().aggregate);
-    const IsolatedSolid a(solids, SolidId{0}), b(solids, SolidId{1}), c(solids, SolidId{2});
-    // Two caps of height 1/2: 2 pi h^2 (3 - h) / 3 = 5 pi / 12.
-    const SolidMeasures lens =
-        measure(Overlap(a, b), {.relative_error = 1e-4, .seconds = 20, .area = false});
-    EXPECT_NEAR(lens.volume.value, 5 * std::numbers::pi / 12, 2 * lens.volume.half_width);
-    EXPECT_LT(lens.volume.half_width, 2e-4);
-    EXPECT_EQ(measure(Overlap(a, c), {.area = false}).volume.value, 0);
-}
-
-TEST(SolidMeasures, BicylindersAreRightToFiveDigits) {
-    // The intersection of two cylinders, 16 r^3 / 3; axis-aligned and rotated.
-    for (const Affine& placement :
-         {Affine{}, Affine::rotate({1, -2, 1}, 0.8) * Affine::scale({2, 2, 2})}) {
-        SceneMaker maker;
-        maker.add(Cylinder{{-2, 0, 0}, {2, 0, 0}, 1}, MaterialId{0}, placement);
-        maker.add(Cylinder{{0, -2, 0}, {0, 2, 0}, 1}, MaterialId{0}, placement);
-        const SolidList solids(maker.compile().aggregate);
-        const IsolatedSolid a(solids, SolidId{0}), b(solids, SolidId{1});
-        const SolidMeasures m =
-            measure(Overlap(a, b), {.relative_error = 1e-5, .seconds = 20, .area = false});
-        const double truth = 16.0 / 3 * std::abs(determinant(placement.linear));
-        EXPECT_TRUE(m.reached);
-        EXPECT_NEAR(m.volume.value, truth, 2 * m.volume.half_width);
-        EXPECT_LE(m.volume.half_width, 1e-5 * truth);
-    }
-}
-
-TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
-    SceneMaker maker;
-    maker.add(Sphere{{1, 1, 1}, 2});
-    maker.add(Cylinder{{0, 0, -5}, {0, 0, 5}, 1});
-    maker.add(BoxShape{{0, 0, 0}, {1, 2, 3}});
-    const SolidList solids(maker.compile().aggregate);
-    const MeasureOptions options{.relative_error = 1e-6, .seconds = 20};
-    const SectionArea disc =
-        section_area(IsolatedSolid(solids, SolidId{0}), {{0, 0, 2}, 4}, options);
-    EXPECT_NEAR(disc.area.value, 3 * std::numbers::pi, 2 * disc.area.half_width);
-    EXPECT_LT(disc.area.half_width, 1e-5);
-    // A cut at 60 degrees to the axis has the semi-axes 1 and 2.
-    const double s = std::sqrt(3.0) / 2;
-    const SectionArea ellipse =
-        section_area(IsolatedSolid(solids, SolidId{2}), {{0, s, 0.5}, 0.1}, options);
-    EXPECT_NEAR(ellipse.area.value, 2 * std::numbers::pi, 2 * ellipse.area.half_width);
-    const SectionArea rectangle =
-        section_area(IsolatedSolid(solids, SolidId{1}), {{1, 0, 0}, 0.5}, options);
-    EXPECT_NEAR(rectangle.area.value, 6, 1e-12);
-    EXPECT_EQ(section_area(IsolatedSolid(solids, SolidId{1}), {{1, 0, 0}, 5}).area.value, 0);
-    EXPECT_THROW((void)frame_of({{0, 0, 0}, 1}), Error);
-}
-
 TEST(SolidMeasures, WhatTheCornersOfAnAlmostFullShadowLackIsInTheInterval) {
     // 8 gamma(1 + 1/p)^3 / gamma(1 + 3/p): a third of the difference to the cube is in corners that
     // one line in 25000 hits.
@@ -301,20 +235,6 @@ TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
     EXPECT_GT(m.lines, 100'000u);
     EXPECT_NEAR(m.volume.value, 32 * std::numbers::pi / 3, 2 * m.volume.half_width);
 }
-
-/// The solid of a scene without other objects.
-class OneSolid {
-  public:
-    explicit OneSolid(const std::string& text)
-        : solids_(compile(testing::import_native(text).scene, {.accelerator = "list"}).aggregate),
-          solid(solids_, SolidId{0}) {}
-
-  private:
-    SolidList solids_;
-
-  public:
-    IsolatedSolid solid;
-};
 
 TEST(SolidMeasures, PartsFarApartAreAllMet) {
     const double pi = std::numbers::pi;
@@ -407,60 +327,6 @@ TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
         measure(Overlap(thread.solid, other.solid), {.seconds = 20, .area = false});
     EXPECT_TRUE(both.reached);
     EXPECT_EQ(both.volume.half_width, 0.0);
-}
-
-TEST(SolidMeasures, OverlapsOfPartsFarApartAreMet) {
-    const OneSolid a(
-        "union { sphere { radius=1 } sphere { center=(1000,0,0); radius=0.01 } "
-        "sphere { center=(0,0,500) } }");
-    const OneSolid b(
-        "union { sphere { center=(-900,0,0) } sphere { center=(1000,0,0); radius=0.005 } }");
-    const double volume = 4 * std::numbers::pi / 3 * 1.25e-7;
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-        const MeasureOptions options{
-            .relative_error = 1e-3, .seconds = 20, .area = false, .seed = seed};
-        for (const Overlap& both : {Overlap(a.solid, b.solid), Overlap(b.solid, a.solid)}) {
-            const SolidMeasures m = measure(both, options);
-            EXPECT_TRUE(m.reached);
-            EXPECT_NEAR(m.volume.value, volume, 2 * m.volume.half_width);
-        }
-    }
-    // The boxes of the wholes overlap, those of the parts do not.
-    const OneSolid apart("union { sphere { center=(0,0,9) } sphere { center=(1000,9,0) } }");
-    const SolidMeasures nothing = measure(Overlap(a.solid, apart.solid), {.area = false});
-    EXPECT_TRUE(nothing.reached);
-    EXPECT_EQ(nothing.volume.hi(), 0.0);
-}
-
-TEST(SolidMeasures, AnOverlapThatNoLineMetHasAWideInterval) {
-    const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
-    const OneSolid block("box { lo=(-1,-9,-9); hi=(1,9,9) }");
-    const SolidMeasures m = measure(
-        Overlap(thread.solid, block.solid),
-        {.relative_error = 1e-3, .seconds = 0.2, .area = false, .most_lines_of_round = 1 << 14});
-    EXPECT_FALSE(m.reached);
-    EXPECT_TRUE(m.volume.holds(std::numbers::pi * 1e-20 * std::sqrt(332.0) / 5));
-    EXPECT_GT(m.volume.half_width, 1e-4);
-}
-
-TEST(SolidMeasures, SectionsOfPartsFarApartAndOfThreadsAreMetOrWide) {
-    const MeasureOptions options{.relative_error = 1e-4, .seconds = 20};
-    const double pi = std::numbers::pi;
-    const OneSolid two(
-        "union { sphere { radius=1e-3 } sphere { center=(1e6,3,0); radius=0.01 } "
-        "sphere { center=(0,0,700) } }");
-    const SectionArea discs = section_area(two.solid, {{0, 0, 1}, 0}, options);
-    EXPECT_TRUE(discs.reached);
-    EXPECT_NEAR(discs.area.value, pi * 1.01e-4, 2 * discs.area.half_width);
-    // Between the parts there is nothing.
-    const SectionArea between = section_area(two.solid, {{0, 0, 1}, 100}, options);
-    EXPECT_TRUE(between.reached);
-    EXPECT_EQ(between.area.hi(), 0.0);
-    const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
-    const SectionArea point = section_area(thread.solid, {{0, 0, 1}, 0.5}, options);
-    EXPECT_FALSE(point.reached);
-    EXPECT_TRUE(point.area.holds(pi * 1e-20 * std::sqrt(83.0) / 3));
-    EXPECT_GT(point.area.half_width, 1e-4);
 }
 
 /// Reports an odd number of crossings on every other line.
