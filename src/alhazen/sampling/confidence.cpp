@@ -10,6 +10,13 @@ namespace {
 /// Degrees of freedom beyond which Student's distribution is the normal one to half a percent.
 constexpr double kMostDegrees = 200;
 
+double mean(std::span<const double> numbers) {
+    const double n = static_cast<double>(numbers.size());
+    double sum = 0;
+    for (const double x : numbers) sum += x / n;
+    return sum;
+}
+
 }  // namespace
 
 double student_two_sided(double t, int degrees) {
@@ -65,21 +72,21 @@ Estimate estimate_of(double value, const Spread& spread, double probability) {
     return {value, student_quantile(probability, degrees) * spread.deviation};
 }
 
-Estimate mean_of(std::span<const double> independent, double probability) {
-    const double n = static_cast<double>(independent.size());
-    double mean = 0;
-    for (const double x : independent) mean += x / n;
+Spread spread_of_mean(std::span<const double> independent) {
+    const double n = static_cast<double>(independent.size()), middle = mean(independent);
     // Divides by the largest deviation, so that no square over- or underflows.
     double farthest = 0;
-    for (const double x : independent) farthest = std::fmax(farthest, std::abs(x - mean));
+    for (const double x : independent) farthest = std::fmax(farthest, std::abs(x - middle));
     double squares = 0;
     for (const double x : independent) {
-        const double off = farthest > 0 ? (x - mean) / farthest : 0;
+        const double off = farthest > 0 ? (x - middle) / farthest : 0;
         squares += off * off;
     }
-    const double deviation = farthest * std::sqrt(squares / (n - 1) / n);
-    const int degrees = static_cast<int>(independent.size()) - 1;
-    return {mean, student_quantile(probability, degrees) * deviation};
+    return {farthest * std::sqrt(squares / (n - 1) / n), n - 1};
+}
+
+Estimate mean_of(std::span<const double> independent, double probability) {
+    return estimate_of(mean(independent), spread_of_mean(independent), probability);
 }
 
 }  // namespace alhazen

@@ -41,6 +41,8 @@ struct Spread {
 /// The estimate with `value` and the half width that follows from `spread`.
 [[nodiscard]] Estimate estimate_of(double value, const Spread& spread, double probability = 0.95);
 
+/// The spread of the mean of independent estimates of one number. Precondition: at least two.
+[[nodiscard]] Spread spread_of_mean(std::span<const double> independent);
 /// The mean of independent estimates of one number, with its interval. Precondition: at least two.
 /// The interval is valid as far as the estimates are normally distributed.
 [[nodiscard]] Estimate mean_of(std::span<const double> independent, double probability = 0.95);

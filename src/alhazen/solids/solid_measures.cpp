@@ -355,14 +355,15 @@ class Measurer {
         const double size = length(box_.size());
         const double rounding = volume_rounding(found.volume.value);
         const double shift = slack_ + rounding / found.volume.value * size;
+        const double degrees = bundles_[best_].spread().degrees;
         found.has_moments = true;
         for (std::size_t k = 0; k < 3; ++k) {
-            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k]), shift);
+            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k], degrees), shift);
         }
         const double moment = found.volume.value * size * size;
         for (std::size_t k = 0; k < 6; ++k) {
-            found.inertia[k] =
-                with_rounding(half_sample_estimate(inertia[k]), 2 * rounding * size * size);
+            found.inertia[k] = with_rounding(half_sample_estimate(inertia[k], degrees),
+                                             2 * rounding * size * size);
         }
         found.in_range = found.in_range && kLeastMoment <= moment && moment <= kMostMoment;
     }

@@ -379,11 +379,12 @@ Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines, d
     return volume;
 }
 
-Estimate half_sample_estimate(const Replicates& replicates) {
-    Estimate e = mean_of(replicates);
+Estimate half_sample_estimate(const Replicates& half_samples, double degrees) {
+    Spread spread = spread_of_mean(half_samples);
     // The mean of independent ones would scatter less, by the root of their number.
-    e.half_width *= std::sqrt(double{kReplicates - 1});
-    return e;
+    spread.deviation *= std::sqrt(double{kReplicates - 1});
+    spread.degrees = std::min(spread.degrees, degrees);
+    return estimate_of(mean_of(half_samples).value, spread);
 }
 
 }  // namespace alhazen

@@ -169,7 +169,8 @@ void check_relative_error(double error);
 [[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines,
                                         double rounding);
 
-/// The estimate of half samples, with its interval.
-[[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples);
+/// The estimate of half samples, with its interval. `degrees`: degrees of freedom of the variance
+/// that the cells give; where few of them scatter, half samples have no more.
+[[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples, double degrees);
 
 }  // namespace alhazen

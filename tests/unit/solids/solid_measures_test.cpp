@@ -372,6 +372,24 @@ class CountedSolid final : public Measurable {
     mutable std::atomic<std::uint64_t> asked_{0};
 };
 
+TEST(SolidMeasures, CentroidsByTheFewestLinesAreInTheirIntervals) {
+    // Of the cells of the first lines only those along the hole scatter: the centroid's interval
+    // has their few degrees of freedom.
+    const OneSolid block(
+        "difference { box { lo=(-1,-1,-1); hi=(1,1,1) } box { lo=(0.2,0.1,-2); hi=(0.6,0.5,2) } }");
+    const OneSolid cone("cone { }");
+    constexpr int kRuns = 200;
+    int of_block = 0, of_cone = 0;
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+        const MeasureOptions few{.seconds = 0, .seed = seed};
+        of_block += measure(block.solid, few).centroid[0].holds(-0.4 * 0.32 / 7.68);
+        of_cone += measure(cone.solid, few).centroid[2].holds(0.25);
+    }
+    EXPECT_GE(of_block, kRuns * 85 / 100);
+    EXPECT_GE(of_cone, kRuns * 90 / 100);
+    EXPECT_LE(of_cone, kRuns * 99 / 100);
+}
+
 TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
     const LoneScene sphere(known_solids()[0]);
     const CountedSolid counted(sphere.solid);
