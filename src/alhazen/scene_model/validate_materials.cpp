@@ -55,7 +55,13 @@ class Checker {
                             "below 1",
                             name_));
         }
-        if (m.dielectric) numbers(m.dielectric->absorption, "absorption");
+        if (m.dielectric) {
+            numbers(m.dielectric->absorption, "absorption");
+            if (m.index.value == 0.0) {
+                error(fmt::format("index of refraction of the dielectric '{}' must be above 0",
+                                  name_));
+            }
+        }
         if (int(m.metallic_roughness.has_value()) + int(m.conductor.has_value()) +
                 int(m.dielectric.has_value()) >
             1) {

@@ -48,6 +48,17 @@ TEST(Validate, EveryFindingIsReportedAtOnceWithItsPlace) {
     EXPECT_TRUE(found);
 }
 
+TEST(Validate, ADielectricHasAnIndex) {
+    SceneMaker maker = good_scene();
+    Material& material = maker.description().materials[0].material;
+    material.index.value = 0;
+    EXPECT_EQ(errors_in(maker.description()), 0u);
+    material.dielectric.emplace();
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+    material.index.value = 0.5;
+    EXPECT_EQ(errors_in(maker.description()), 0u);
+}
+
 TEST(Validate, IdsOutOfRangeAreErrors) {
     SceneMaker maker = good_scene();
     SceneDescription& d = maker.description();

@@ -45,7 +45,8 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
         result.surface = material.transmissive;
     }
     if (medium.physical && medium.thin) return result;
-    if (by_distance && leaving && (closed || volumes.empty())) {
+    const Body body = body_of(surface);
+    if (by_distance && leaving && (closed || volumes.empty()) && volumes.is_innermost(body)) {
         result.body = power(medium.transmissive, length);
     } else {
         result.way = volumes.through(length);
@@ -53,11 +54,11 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
     if (!medium.physical && !(by_distance && closed)) return result;
     const Rgb kt = by_distance ? medium.transmissive : Rgb{1, 1, 1};
     if (leaving) {
-        volumes.leave(body_of(surface));
+        volumes.leave(body);
     } else if (behind_wall) {
-        volumes.enter_behind_wall(medium.absorption, kt, body_of(surface));
+        volumes.enter_behind_wall(medium.absorption, kt, body);
     } else {
-        volumes.enter(medium.absorption, kt, body_of(surface));
+        volumes.enter(medium.absorption, kt, body);
     }
     return result;
 }

@@ -35,9 +35,16 @@ namespace alhazen {
 /// Identifies the volume that a surface bounds. The faces of a solid of one medium belong to
 /// several parts: a volume whose part is not around a ray is the innermost one of its material.
 struct Body {
-    static constexpr std::uint32_t kUnknown = 0xFFFFFFFFu;
-    std::uint64_t part = 0;  ///< or a solid of several media
-    std::uint32_t material = kUnknown;
+    static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+    static constexpr std::uint32_t kSeveral = ~std::uint32_t{0};
+    std::uint64_t part = kNowhere;      ///< or a solid of several media; kNowhere: not known
+    std::uint32_t material = kSeveral;  ///< kSeveral: of several media, or not known
+
+    [[nodiscard]] bool is_unknown() const { return part == kNowhere; }
+    /// Whether they have one medium, the same.
+    [[nodiscard]] bool is_alike(const Body& other) const {
+        return material != kSeveral && material == other.material;
+    }
 };
 
 /// The volumes around a ray that passes surfaces without bending, innermost last.
@@ -52,20 +59,15 @@ class CrossedVolumes {
     void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, const Body& body = {}) {
         volumes_.push_back({absorption, kt, body});
     }
-    /// Leaves the body; if it is not around the ray, the innermost volume of its material, else the
-    /// innermost of all.
+    /// Leaves the body; if it is not around the ray, the innermost volume of its material, or that
+    /// in which the ray began, if it is not known, else the innermost of all.
     void leave(const Body& body) {
-        left_.reset();
-        if (volumes_.empty()) return;
-        const auto last = [&](const auto& is_it) {
-            std::size_t k = volumes_.size();
-            while (k > 0 && !is_it(volumes_[k - 1].body)) --k;
-            return k;  // behind it; 0: none
-        };
-        std::size_t k = last([&](const Body& b) { return b.part == body.part; });
-        if (k == 0) k = last([&](const Body& b) { return b.material == body.material; });
-        left_ = (k > 0 ? k : volumes_.size()) - 1;
-        volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(*left_));
+        left_ = place_of(body);
+        if (left_) volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(*left_));
+    }
+    /// Whether it is the body that surrounds the ray: no other has been entered since.
+    [[nodiscard]] bool is_innermost(const Body& body) const {
+        return volumes_.empty() || place_of(body) == volumes_.size() - 1;
     }
     /// At a wall of a body: its next medium is in the place of the one that was left there.
     void enter_behind_wall(const Rgb& absorption, const Rgb& kt, const Body& body) {
@@ -89,6 +91,20 @@ class CrossedVolumes {
         Rgb absorption, kt;
         Body body;
     };
+    /// The volume that `leave` removes.
+    [[nodiscard]] std::optional<std::size_t> place_of(const Body& body) const {
+        if (volumes_.empty()) return {};
+        const auto last = [&](const auto& is_it) {
+            std::size_t k = volumes_.size();
+            while (k > 0 && !is_it(volumes_[k - 1].body)) --k;
+            return k;  // behind it; 0: none
+        };
+        std::size_t k = last([&](const Body& b) { return b.part == body.part; });
+        if (k == 0) k = last([&](const Body& b) { return b.is_alike(body); });
+        if (k == 0) k = last([&](const Body& b) { return b.is_unknown(); });
+        return (k > 0 ? k : volumes_.size()) - 1;
+    }
+
     std::vector<Volume> volumes_;
     std::optional<std::size_t> left_;  ///< place of the volume that was left last
 };
@@ -128,7 +144,7 @@ class TintedMedia {
             if (media_[k].body.part == body.part) return without(k, medium);
         }
         for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
-            if (media_[k].body.material == body.material) return without(k, medium);
+            if (media_[k].body.is_alike(body)) return without(k, medium);
         }
         return media_[medium].around;
     }

@@ -240,6 +240,50 @@ TEST(Media, ShadowRaysLeaveASolidByAnyOfItsParts) {
     }
 }
 
+/// A piece inside a volume that begins below it, and another volume that overlaps its top.
+TEST(Media, ShadowRaysLeaveTheVolumeThatTheyBeganIn) {
+    for (const bool by_kt : {false, true}) {
+        for (const bool around_first : {false, true}) {
+            SceneMaker maker;
+            auto& shading = maker.description().conventions.shading;
+            shading.shadow_tint = ShadowTint::PerDistance;
+            shading.refraction_tint = RefractionTint::PerDistance;
+            const auto filled = [&](double kt) {
+                return by_kt ? clear(maker, {kt, kt, kt})
+                             : maker.material(absorbing(-std::log(kt)));
+            };
+            const BoxShape around{{-4, -4, 0}, {4, 4, 2}}, other{{-1, -1, 1}, {1, 1, 3}};
+            if (around_first) maker.add(around, filled(0.6));
+            maker.add(other, filled(0.4));
+            if (!around_first) maker.add(around, filled(0.6));
+            maker.add(Rectangle{{-0.3, -0.3, 0.5}, {0.6, 0, 0}, {0, 0.6, 0}},
+                      maker.material(white()));
+            maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+            // The eye sees the piece from the side, through the surrounding volume alone.
+            const Vec3 look{8, 0, -0.8};
+            const double in = 4 * length(look) / 8;
+            const double left = std::pow(0.6, in + 0.5) * std::pow(0.4, 2);
+            maker.description().cameras[0].camera =
+                look_along({-8, 0, 1.3}, look, {0, 0, 1}, 1e-4, 1.0);
+            shading.max_depth = 8;
+            for (const char* const name : {"whitted", "distributed", "beam_tracing"}) {
+                SCOPED_TRACE(std::string(name) + (by_kt ? ", kt" : "") +
+                             (around_first ? ", around first" : ""));
+                const std::unique_ptr<Renderer> renderer = make_renderer(name);
+                const Scene scene = maker.compile();
+                const SamplingPlan plan;
+                Film film(1, 1, {0, 0, 1, 1});
+                const RenderJob job{.scene = scene,
+                                    .camera = scene.cameras[0].camera,
+                                    .description = &maker.description(),
+                                    .sampling = &plan};
+                ASSERT_TRUE(renderer->render(job, film).complete());
+                expect_near(film.at(0, 0), {left, left, left}, 1e-4);
+            }
+        }
+    }
+}
+
 TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
     for (const bool lamp : {false, true}) {
         for (const bool inward : {false, true}) {
