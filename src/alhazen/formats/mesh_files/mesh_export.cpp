@@ -173,9 +173,10 @@ std::string face_material(const NamedMesh& from, const std::array<std::uint32_t,
     return one_name(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
 }
 
-void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
+void append_object(const NamedMesh& from, const std::string& name, ObjOffsets& offsets,
+                   std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
-    out += "o " + one_name(from.name) + '\n';
+    out += "o " + name + '\n';
     append_vertices(from, out);
     const bool mirrored = mirrors(from.placement);
     const bool by_face = has_vertex_materials(from);
@@ -245,8 +246,11 @@ std::string ply_bytes(std::span<const NamedMesh> meshes) {
 std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtllib) {
     std::string out = "# Alhazen\n";
     if (!mtllib.empty()) out += "mtllib " + one_line(mtllib) + '\n';
+    const std::vector<std::string> names = object_names(meshes, "mesh");
     ObjOffsets offsets;
-    for (const NamedMesh& from : meshes) append_object(from, offsets, out);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        append_object(meshes[i], names[i], offsets, out);
+    }
     return out;
 }
 

@@ -167,6 +167,27 @@ TEST(MeshExport, ANameInAnObjBeginsNoComment) {
     EXPECT_EQ(back("wheel #2 a#"), "wheel #2 a#");
 }
 
+TEST(MeshExport, PartsOfEqualNamesAndOfNoneStayApartInAnObj) {
+    const TriangleMesh mesh = ball(1);
+    std::vector<NamedMesh> meshes;
+    for (const char* name : {"b", "", "b", "b_", "b\n", "", "b_2"}) {
+        const Affine placement = Affine::translate({0.5 * double(meshes.size()), 0, 0});
+        meshes.push_back({name, &mesh, placement, ""});
+    }
+    Diagnostics found;
+    const SceneDescription scene = import_text(obj_text(meshes), "a.obj", found);
+    ASSERT_EQ(scene.meshes.size(), meshes.size()) << text_of(found);
+    EXPECT_EQ(scene.meshes[0].name, "b");
+    EXPECT_EQ(scene.meshes[3].name, "b_");
+    EXPECT_EQ(scene.meshes[6].name, "b_2");
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        TriangleMesh placed = mesh;
+        placed.transform(meshes[i].placement);
+        EXPECT_EQ(triangle_set(*scene.meshes[i].mesh), triangle_set(placed)) << i;
+        EXPECT_FALSE(scene.meshes[i].name.empty());
+    }
+}
+
 TEST(MeshExport, MirroredPlacementsKeepTheOutsideOutside) {
     const TriangleMesh mesh = ball(2);
     const double volume = signed_volume(mesh);
