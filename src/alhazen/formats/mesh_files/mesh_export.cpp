@@ -137,6 +137,16 @@ struct ObjOffsets {
     std::uint64_t positions = 1, uvs = 1, normals = 1;
 };
 
+/// True if all triangles share three texture coordinates, the barycentrics of their vertices.
+bool has_barycentrics(const NamedMesh& from) {
+    return from.needs_coordinates && from.mesh->uvs.empty();
+}
+
+std::span<const Vec2> coordinates_of(const NamedMesh& from) {
+    static constexpr std::array<Vec2, 3> kBarycentrics{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}};
+    return has_barycentrics(from) ? std::span<const Vec2>(kBarycentrics) : from.mesh->uvs;
+}
+
 void append_vertices(const NamedMesh& from, std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -150,7 +160,7 @@ void append_vertices(const NamedMesh& from, std::string& out) {
         }
         out += '\n';
     }
-    for (const Vec2& uv : mesh.uvs) {
+    for (const Vec2& uv : coordinates_of(from)) {
         out += "vt";
         append_number(out, uv.x);
         append_number(out, uv.y);
@@ -179,7 +189,8 @@ void append_object(const NamedMesh& from, const std::string& name, ObjOffsets& o
     out += "o " + name + '\n';
     append_vertices(from, out);
     const bool mirrored = mirrors(from.placement);
-    const bool by_face = has_vertex_materials(from);
+    const bool by_face = has_vertex_materials(from), barycentric = has_barycentrics(from);
+    const std::size_t uvs = coordinates_of(from).size();
     std::uint32_t current = 0;
     bool first = true;
     for (const auto& t : mesh.triangles) {
@@ -192,11 +203,12 @@ void append_object(const NamedMesh& from, const std::string& name, ObjOffsets& o
             current = own;
         }
         out += 'f';
-        for (const std::uint32_t i : placed(t, mirrored)) {
+        for (const std::uint32_t corner : placed({0, 1, 2}, mirrored)) {
+            const std::uint32_t i = t[corner];
             out += ' ';
             append_index(out, offsets.positions + i);
-            if (!mesh.uvs.empty() || !mesh.normals.empty()) out += '/';
-            if (!mesh.uvs.empty()) append_index(out, offsets.uvs + i);
+            if (uvs > 0 || !mesh.normals.empty()) out += '/';
+            if (uvs > 0) append_index(out, offsets.uvs + (barycentric ? corner : i));
             if (!mesh.normals.empty()) {
                 out += '/';
                 append_index(out, offsets.normals + i);
@@ -205,7 +217,7 @@ void append_object(const NamedMesh& from, const std::string& name, ObjOffsets& o
         out += '\n';
     }
     offsets.positions += mesh.positions.size();
-    offsets.uvs += mesh.uvs.size();
+    offsets.uvs += uvs;
     offsets.normals += mesh.normals.size();
 }
 

@@ -30,6 +30,9 @@ struct NamedMesh {
     /// OBJ: names of the materials that the mesh's vertex_materials number; empty: these are not
     /// used. Referenced.
     std::span<const std::string> vertex_material_names{};
+    /// OBJ: its materials have pictures. A mesh without texture coordinates then gets those that it
+    /// is shaded with, the barycentrics.
+    bool needs_coordinates = false;
 };
 
 /// A single mesh, unchanged; read_ply returns every array bit for bit.

@@ -206,6 +206,30 @@ TEST(ObjScene, PicturesAreFoundWithBlanksOptionsAndOtherCapitals) {
     }
 }
 
+TEST(ObjScene, FacesWithoutCoordinatesHaveThePicturesAtTheOrigin) {
+    const TemporaryFolder folder;
+    Image image(2, 2, 3);
+    write_image(folder.path() / "p.png", image, {});
+    folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd p.png\nnewmtl plain\nKd 1 1 1\n");
+    const std::string start = "mtllib a.mtl\n" + kSquare + "vt .75 .25\n";
+    const auto uvs_of = [&](const std::string& faces, bool told) {
+        Diagnostics found;
+        const SceneDescription scene = scene_of(start + faces, found, folder.path());
+        EXPECT_EQ(found.warning_count(), told ? 1u : 0u) << faces << text_of(found);
+        EXPECT_EQ(mentions(found, "a.obj:8: warning: the mesh 'm' has faces without texture"), told)
+            << text_of(found);
+        Diagnostics none;
+        validate(scene, none);
+        EXPECT_EQ(text_of(none), "");
+        return scene.meshes.at(0).mesh->uvs;
+    };
+    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\n", true), std::vector<Vec2>(4));
+    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\nf 1/1 2/1 3/1\n", true),
+              (std::vector<Vec2>{{}, {}, {}, {}, {.75, .25}, {.75, .25}, {.75, .25}}));
+    EXPECT_EQ(uvs_of("usemtl m\nf 1/1 2/1 3/1\n", false), std::vector<Vec2>(3, {.75, .25}));
+    EXPECT_TRUE(uvs_of("usemtl plain\nf 1 2 3 4\n", false).empty());
+}
+
 TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
     const WithPicture s(
         "Kd .5 .5 .5\nKs 1 1 1\nNs 10\nmap_Ns my pic.png\nmap_d -imfchan g my pic.png\n"
@@ -420,7 +444,8 @@ TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
                      "vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1#c\nusemtl b\nf 1/1 2/1 3/1 # c\n"
                      "f 1 2 3# c\n",
                  found, folder.path());
-    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(found.all().size(), 1u) << text_of(found);
+    EXPECT_TRUE(mentions(found, "the mesh 'b' has faces without texture coordinates"));
     EXPECT_EQ(scene.textures.size(), 2u);
     ASSERT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(scene.meshes[0].mesh->triangles.size(), 2u);
