@@ -142,6 +142,13 @@ TEST(ObjScene, CoefficientsFollowTheIlluminationModel) {
     EXPECT_EQ(glass.index.value, 1.5);
     EXPECT_EQ(material_of("d .25\nillum 6\n").transmissive.color, (Rgb{.75, .75, .75}));
     EXPECT_TRUE(material_of("Tf 1 1 1\nd 1\nillum 2\n").transmissive.color.is_black());
+    for (const char* illum : {"4", "6", "7", "9"}) {
+        const std::string model = std::string("illum ") + illum + "\n";
+        EXPECT_EQ(material_of("Tr 1\n" + model).transmissive.color, (Rgb{1, 1, 1})) << illum;
+        EXPECT_EQ(material_of("Tr .5\n" + model).transmissive.color, (Rgb{.5, .5, .5}));
+        EXPECT_EQ(material_of("Tf 1 0 0\nTr 1\n" + model).transmissive.color, (Rgb{1, 0, 0}));
+        EXPECT_TRUE(material_of("Tr 0\n" + model).transmissive.color.is_black());
+    }
 }
 
 TEST(ObjScene, DissolvedMaterialsAreBlended) {
@@ -204,6 +211,23 @@ TEST(ObjScene, PicturesAreFoundWithBlanksOptionsAndOtherCapitals) {
             EXPECT_EQ(t.apply({1, 1}), (Vec2{2.25, 3.5}));
         }
     }
+}
+
+TEST(ObjScene, AnAmbientPictureCountsAloneBesideABlackOrMissingColour) {
+    for (const char* black : {"", "Ka 0 0 0\n"}) {
+        const WithPicture s(black + std::string("Kd .5 .5 .5\nmap_Ka my pic.png\n"));
+        EXPECT_EQ(text_of(s.found), "");
+        EXPECT_EQ(s.material().ambient.color, (Rgb{1, 1, 1}));
+        ASSERT_NE(s.material().ambient.texture, kNoTexture);
+        EXPECT_EQ(s.material().diffuse.texture, kNoTexture);
+        // Without the picture the ambient colour is the diffuse one.
+        const WithPicture gone(black + std::string("Kd .5 .5 .5\nmap_Ka gone.png\n"));
+        EXPECT_TRUE(mentions(gone.found, "'gone.png'")) << text_of(gone.found);
+        EXPECT_EQ(gone.material().ambient.color, (Rgb{.5, .5, .5}));
+    }
+    const WithPicture both("Ka .25 .5 1\nmap_Ka my pic.png\nKd 1 1 1\n");
+    EXPECT_EQ(both.material().ambient.color, (Rgb{.25, .5, 1}));
+    EXPECT_NE(both.material().ambient.texture, kNoTexture);
 }
 
 TEST(ObjScene, FacesWithoutCoordinatesHaveThePicturesAtTheOrigin) {
