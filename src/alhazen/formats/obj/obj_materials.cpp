@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/mesh/mesh_scene.h"
 #include "alhazen/formats/obj/bump_map.h"
 #include "alhazen/formats/text/text_cursor.h"
@@ -93,8 +94,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
         const std::filesystem::path path = resolve_inside(roots_, folder_, *found);
         diagnostics_.note_file(path);
         const std::string bytes = read_file(path, source_.options.max_included_bytes);
-        std::string_view text = bytes;
-        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+        const std::string_view text = without_byte_order_mark(bytes);
         std::vector<MtlMaterial> materials = read_mtl(text, path.string(), diagnostics_);
         for (MtlMaterial& material : materials) {
             if (!entry_of_.try_emplace(material.name, entries_.size()).second) continue;

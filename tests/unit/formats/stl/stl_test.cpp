@@ -205,6 +205,15 @@ TEST(Stl, ABinaryFileThatBeginsWithSolidIsToldOfAsBinaryWhenItsSizeIsWrong) {
     EXPECT_TRUE(mentions(more, "2 bytes behind the last facet")) << text_of(more);
 }
 
+TEST(Stl, Utf16TextIsToldOf) {
+    std::string text = "\xFF\xFE";
+    for (const char c : "solid a\n" + kFacet) (text += c) += '\0';
+    Diagnostics found;
+    EXPECT_TRUE(solids_of(text, found).empty());
+    EXPECT_EQ(text_of(found),
+              "a.stl:1:1: error: the file is UTF-16 text; expected ASCII or UTF-8\n");
+}
+
 TEST(Stl, PositionsThatAreNoNumbersNameTheirFacet) {
     auto bad = kTriangle;
     bad[4] = std::numeric_limits<float>::quiet_NaN();
