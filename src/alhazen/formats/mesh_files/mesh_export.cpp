@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "alhazen/formats/mesh_files/mesh_export_text.h"
+#include "alhazen/formats/stl/stl_reader.h"
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -306,7 +307,7 @@ std::string stl_bytes(std::span<const NamedMesh> meshes) {
     if (count > kMaxFileElements) {
         throw Error(ErrorKind::Resource, "more than 4294967295 triangles for one STL file");
     }
-    std::string out = "binary STL by Alhazen";
+    std::string out(kStlHeader);
     out.reserve(84 + 50 * count);
     out.resize(80, ' ');
     for (int shift = 0; shift < 32; shift += 8) out += char(count >> shift & 0xFFu);

@@ -167,6 +167,7 @@ class StlReader {
         const auto printable = [](char c) { return c >= 0x20 && c < 0x7f; };
         if (!std::all_of(header.begin(), header.end(), printable)) return {};
         while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
+        if (header == kStlHeader) return {};
         if (header.starts_with("solid ")) header.remove_prefix(6);
         return std::string(header);
     }

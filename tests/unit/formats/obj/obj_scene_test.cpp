@@ -135,6 +135,9 @@ TEST(ObjScene, CoefficientsFollowTheIlluminationModel) {
     EXPECT_EQ(material_of("Ke 10 10 10\n").emission.color, (Rgb{10, 10, 10}));
     EXPECT_EQ(material_of("").diffuse.color, (Rgb{.7, .7, .7}));
     EXPECT_EQ(material_of("Kd .5\n").diffuse.color, (Rgb{.5, .5, .5}));
+    Diagnostics found;
+    EXPECT_EQ(material_of("Kd .5 .2\n", found).diffuse.color, (Rgb{.5, .2, .2}));
+    EXPECT_TRUE(mentions(found, "a.mtl:2:1: warning: a colour of two numbers")) << text_of(found);
 
     const Material glass = material_of("Kd 0 0 0\nKs .3 .3 .3\nTf .9 .8 .7\nNi 1.5\nillum 7\n");
     EXPECT_EQ(glass.transmissive.color, (Rgb{.9, .8, .7}));
