@@ -4,6 +4,7 @@
 #include <array>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/bpt/bpt_importer.h"
 #include "alhazen/formats/brlcad/brlcad_importer.h"
 #include "alhazen/formats/gltf/scene/gltf_importer.h"
@@ -84,9 +85,8 @@ void choose_objects(SceneDescription& description, std::span<const std::string> 
 SceneDescription import_scene(const std::filesystem::path& path, const ImportOptions& options,
                               Diagnostics& diagnostics) {
     const std::string file = read_file(path);
-    // A byte order mark carries no information: all text formats are ASCII or UTF-8.
-    std::string_view bytes = file;
-    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    // All text formats are ASCII or UTF-8.
+    const std::string_view bytes = without_byte_order_mark(file);
     if (is_empty_file(bytes)) {
         throw Error(ErrorKind::Scene, "the file is empty", {path.string(), 0, 0});
     }

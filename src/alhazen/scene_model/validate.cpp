@@ -8,6 +8,7 @@
 #include "alhazen/base/interruption.h"
 #include "alhazen/base/overloaded.h"
 #include "alhazen/imaging/image/image.h"
+#include "alhazen/scene_model/read_pictures.h"
 #include "alhazen/scene_model/scene_description.h"
 #include "alhazen/scene_model/validate_materials.h"
 #include "alhazen/scene_model/validate_solids.h"
@@ -41,6 +42,7 @@ class Validator {
         check_nesting();
         validate_solids(d_, out_);
         check_picture();
+        if (out_.error_count() == 0) check_coordinates();
     }
 
   private:
@@ -272,6 +274,26 @@ class Validator {
                 check_accelerator(object.accelerator);
             } catch (const Error& e) {
                 error(object.location, e.what());
+            }
+        }
+    }
+
+    /// Warns once of each mesh without texture coordinates whose materials have pictures.
+    void check_coordinates() {
+        if (d_.textures.empty()) return;
+        std::vector<bool> told(d_.meshes.size());
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) {
+                const auto* index = std::get_if<MeshIndex>(&part.what);
+                if (index == nullptr || told[static_cast<std::size_t>(*index)]) continue;
+                const MeshDescription& mesh = d_.meshes[static_cast<std::size_t>(*index)];
+                if (!mesh.mesh->uvs.empty()) continue;
+                if (!reads_pictures(d_, part.material, *mesh.mesh)) continue;
+                told[static_cast<std::size_t>(*index)] = true;
+                warning(part.location,
+                        fmt::format("{} has no texture coordinates: each of its triangles shows "
+                                    "half of the pictures of its material",
+                                    in_words(mesh)));
             }
         }
     }

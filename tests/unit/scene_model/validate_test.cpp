@@ -59,6 +59,33 @@ TEST(Validate, ADielectricHasAnIndex) {
     EXPECT_EQ(errors_in(maker.description()), 0u);
 }
 
+TEST(Validate, PicturesOnMeshesWithoutCoordinatesAreToldOfOnce) {
+    const auto warnings = [](const Texture& texture, bool with_uvs) {
+        SceneMaker maker;
+        maker.description().textures.push_back({"t", texture, {}});
+        Material m;
+        m.diffuse = {{1, 1, 1}, TextureId{0}};
+        (void)maker.material(m);
+        TriangleMesh triangle;
+        triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        triangle.triangles = {{0, 1, 2}};
+        if (with_uvs) triangle.uvs.resize(3);
+        const MeshIndex mesh = maker.mesh(triangle);
+        maker.add(mesh, MaterialId{0});
+        maker.add(mesh, MaterialId{0}, Affine::translate({1, 0, 0}));
+        Diagnostics diagnostics;
+        validate(maker.description(), diagnostics);
+        EXPECT_EQ(diagnostics.error_count(), 0u);
+        return diagnostics.warning_count();
+    };
+    ImageTexture picture;
+    picture.image =
+        std::make_shared<StoredImage>(StoredImage{1, 1, 1, false, std::vector<std::uint8_t>{9}});
+    EXPECT_EQ(warnings(picture, false), 1u);
+    EXPECT_EQ(warnings(picture, true), 0u);
+    EXPECT_EQ(warnings(SolidTexture{}, false), 0u);
+}
+
 TEST(Validate, IdsOutOfRangeAreErrors) {
     SceneMaker maker = good_scene();
     SceneDescription& d = maker.description();

@@ -5,6 +5,7 @@
 #include "alhazen/formats/core/default_conventions.h"
 
 #include "alhazen/base/lower_case.h"
+#include "alhazen/base/unicode_marks.h"
 
 namespace alhazen {
 
@@ -48,8 +49,8 @@ void report_no_faces(const ImportSource& source, std::size_t points, Diagnostics
 bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics) {
     const std::string_view bytes = source.bytes;
     const FileLocation start{source.path.string(), 1, 1};
-    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-        diagnostics.error(start, "the file is UTF-16 text; expected ASCII or UTF-8");
+    if (is_utf16(bytes)) {
+        diagnostics.error(start, kUtf16Found);
     } else if (is_empty_file(bytes)) {
         diagnostics.error(start, "the file is empty");
     } else if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "alhazen/formats/mesh_files/mesh_export_text.h"
+#include "alhazen/formats/stl/stl_reader.h"
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -137,6 +138,16 @@ struct ObjOffsets {
     std::uint64_t positions = 1, uvs = 1, normals = 1;
 };
 
+/// True if all triangles share three texture coordinates, the barycentrics of their vertices.
+bool has_barycentrics(const NamedMesh& from) {
+    return from.needs_coordinates && from.mesh->uvs.empty();
+}
+
+std::span<const Vec2> coordinates_of(const NamedMesh& from) {
+    static constexpr std::array<Vec2, 3> kBarycentrics{Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}};
+    return has_barycentrics(from) ? std::span<const Vec2>(kBarycentrics) : from.mesh->uvs;
+}
+
 void append_vertices(const NamedMesh& from, std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -150,7 +161,7 @@ void append_vertices(const NamedMesh& from, std::string& out) {
         }
         out += '\n';
     }
-    for (const Vec2& uv : mesh.uvs) {
+    for (const Vec2& uv : coordinates_of(from)) {
         out += "vt";
         append_number(out, uv.x);
         append_number(out, uv.y);
@@ -173,12 +184,14 @@ std::string face_material(const NamedMesh& from, const std::array<std::uint32_t,
     return one_name(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
 }
 
-void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
+void append_object(const NamedMesh& from, const std::string& name, ObjOffsets& offsets,
+                   std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
-    out += "o " + one_name(from.name) + '\n';
+    out += "o " + name + '\n';
     append_vertices(from, out);
     const bool mirrored = mirrors(from.placement);
-    const bool by_face = has_vertex_materials(from);
+    const bool by_face = has_vertex_materials(from), barycentric = has_barycentrics(from);
+    const std::size_t uvs = coordinates_of(from).size();
     std::uint32_t current = 0;
     bool first = true;
     for (const auto& t : mesh.triangles) {
@@ -191,11 +204,12 @@ void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out)
             current = own;
         }
         out += 'f';
-        for (const std::uint32_t i : placed(t, mirrored)) {
+        for (const std::uint32_t corner : placed({0, 1, 2}, mirrored)) {
+            const std::uint32_t i = t[corner];
             out += ' ';
             append_index(out, offsets.positions + i);
-            if (!mesh.uvs.empty() || !mesh.normals.empty()) out += '/';
-            if (!mesh.uvs.empty()) append_index(out, offsets.uvs + i);
+            if (uvs > 0 || !mesh.normals.empty()) out += '/';
+            if (uvs > 0) append_index(out, offsets.uvs + (barycentric ? corner : i));
             if (!mesh.normals.empty()) {
                 out += '/';
                 append_index(out, offsets.normals + i);
@@ -204,7 +218,7 @@ void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out)
         out += '\n';
     }
     offsets.positions += mesh.positions.size();
-    offsets.uvs += mesh.uvs.size();
+    offsets.uvs += uvs;
     offsets.normals += mesh.normals.size();
 }
 
@@ -245,8 +259,11 @@ std::string ply_bytes(std::span<const NamedMesh> meshes) {
 std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtllib) {
     std::string out = "# Alhazen\n";
     if (!mtllib.empty()) out += "mtllib " + one_line(mtllib) + '\n';
+    const std::vector<std::string> names = object_names(meshes, "mesh");
     ObjOffsets offsets;
-    for (const NamedMesh& from : meshes) append_object(from, offsets, out);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        append_object(meshes[i], names[i], offsets, out);
+    }
     return out;
 }
 
@@ -290,7 +307,7 @@ std::string stl_bytes(std::span<const NamedMesh> meshes) {
     if (count > kMaxFileElements) {
         throw Error(ErrorKind::Resource, "more than 4294967295 triangles for one STL file");
     }
-    std::string out = "binary STL by Alhazen";
+    std::string out(kStlHeader);
     out.reserve(84 + 50 * count);
     out.resize(80, ' ');
     for (int shift = 0; shift < 32; shift += 8) out += char(count >> shift & 0xFFu);

@@ -30,6 +30,9 @@ struct NamedMesh {
     /// OBJ: names of the materials that the mesh's vertex_materials number; empty: these are not
     /// used. Referenced.
     std::span<const std::string> vertex_material_names{};
+    /// OBJ: its materials have pictures. A mesh without texture coordinates then gets those that it
+    /// is shaded with, the barycentrics.
+    bool needs_coordinates = false;
 };
 
 /// A single mesh, unchanged; read_ply returns every array bit for bit.
@@ -39,8 +42,8 @@ struct NamedMesh {
 /// are omitted. Throws Error (Resource) beyond 2^32 - 1 vertices.
 [[nodiscard]] std::string ply_bytes(std::span<const NamedMesh> meshes);
 
-/// Text with one `o` per mesh. `mtllib`: name of the material file; empty: none. With materials per
-/// vertex a face has that of its first vertex.
+/// Text with one `o` per mesh, all of different names. `mtllib`: name of the material file; empty:
+/// none. With materials per vertex a face has that of its first vertex.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
 [[nodiscard]] std::uint64_t meshes_without_tangents(std::span<const NamedMesh> meshes);

@@ -4,6 +4,9 @@
 #include <array>
 #include <charconv>
 #include <string>
+#include <vector>
+
+#include "alhazen/formats/text/unique_labels.h"
 
 namespace alhazen {
 
@@ -36,6 +39,16 @@ inline std::string one_name(const std::string& text) {
         if (at + 2 == name.size() || name[at + 2] == ' ') name[at] = '_';
     }
     return name;
+}
+
+/// A name for each object of an OBJ, all different: readers join objects of equal name. `kind`
+/// replaces an empty name.
+template <class Objects>
+[[nodiscard]] std::vector<std::string> object_names(const Objects& objects,
+                                                    const std::string& kind) {
+    std::vector<std::string> names;
+    for (const auto& object : objects) names.push_back(one_name(object.name));
+    return unique_labels(names, kind);
 }
 
 }  // namespace alhazen

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/mesh/mesh_scene.h"
 #include "alhazen/formats/obj/obj_importer.h"
 #include "alhazen/formats/obj/obj_reader.h"
@@ -43,8 +44,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ImportOptions& o
                        Diagnostics& diagnostics) {
     diagnostics.note_file(path);
     const std::string bytes = read_file(path, options.max_included_bytes);
-    std::string_view text = bytes;
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const std::string_view text = without_byte_order_mark(bytes);
     const std::size_t errors_before = diagnostics.error_count();
     TriangleMesh mesh = read_any({text, path, options}, diagnostics);
     if (mesh.triangles.empty() && diagnostics.error_count() == errors_before) {

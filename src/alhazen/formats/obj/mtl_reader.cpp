@@ -238,6 +238,7 @@ class MtlReader {
         int count = 0;
         while (count < 3 && cursor_.skip_blanks() && cursor_.number(value[count])) ++count;
         if (count == 0) return bad_number();
+        if (count == 2) warn_once(5, "a colour of two numbers: the second is also its blue");
         // One number is grey; of two, the second also serves as the third.
         for (; count < 3; ++count) value[count] = value[count - 1];
         if (std::min({value.r, value.g, value.b}) < 0) return unused(begin.rest_of_line());
@@ -306,7 +307,7 @@ class MtlReader {
     std::vector<std::string> unused_;  ///< at most one more than are listed
     FileLocation first_unused_;
     std::unordered_set<std::string> names_;
-    std::array<bool, 5> warned_{};
+    std::array<bool, 6> warned_{};
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "alhazen/formats/obj/obj_reader.h"
 #include "alhazen/formats/obj/obj_surfaces.h"
 #include "alhazen/formats/text/text_cursor.h"
+#include "alhazen/scene_model/read_pictures.h"
 
 namespace alhazen {
 
@@ -78,8 +79,16 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
     };
     for (ObjPart& part : parts) {
         const std::string& material = statements.materials[part.material];
-        add_mesh(scene, std::move(part.mesh), name_of(part.name, material), use(part.material),
-                 {file, int(std::min<std::uint32_t>(part.line, 0x7FFFFFFF)), 0});
+        const std::string name = name_of(part.name, material);
+        const FileLocation where{file, int(std::min<std::uint32_t>(part.line, 0x7FFFFFFF)), 0};
+        const MaterialId id = use(part.material);
+        if (part.lacks_uvs && reads_pictures(scene, id)) {
+            diagnostics.warning(where, "the mesh '" + name.substr(0, 200) +
+                                           "' has faces without texture coordinates (vt): they "
+                                           "have the colours of its pictures at (0, 0)");
+            part.mesh.uvs.resize(part.mesh.positions.size());
+        }
+        add_mesh(scene, std::move(part.mesh), name, id, where);
     }
     for (ObjSurface& surface : surfaces) {
         const std::string& material = statements.materials[surface.material];

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/mesh/mesh_scene.h"
 #include "alhazen/formats/obj/bump_map.h"
 #include "alhazen/formats/text/text_cursor.h"
@@ -93,8 +94,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
         const std::filesystem::path path = resolve_inside(roots_, folder_, *found);
         diagnostics_.note_file(path);
         const std::string bytes = read_file(path, source_.options.max_included_bytes);
-        std::string_view text = bytes;
-        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+        const std::string_view text = without_byte_order_mark(bytes);
         std::vector<MtlMaterial> materials = read_mtl(text, path.string(), diagnostics_);
         for (MtlMaterial& material : materials) {
             if (!entry_of_.try_emplace(material.name, entries_.size()).second) continue;
@@ -170,9 +170,11 @@ MaterialId ObjMaterials::add(const MtlMaterial& m) {
     const Rgb missing = says_nothing ? default_mesh_material(colored_).diffuse.color : Rgb{};
     out.diffuse = color(beside(m.kd, m.map_kd, missing), m.map_kd);
     out.ambient = out.diffuse;
-    if (m.ka && !m.ka->is_black()) {
-        out.ambient.color = *m.ka;
-        if (!m.map_ka.file.empty()) out.ambient = color(*m.ka, m.map_ka);
+    const bool has_ka = m.ka && !m.ka->is_black();
+    if (has_ka) out.ambient.color = *m.ka;
+    if (!m.map_ka.file.empty()) {
+        const ColorInput own = color(beside(m.ka, m.map_ka), m.map_ka);
+        if (has_ka || own.texture != kNoTexture) out.ambient = own;
     }
     out.emission = color(beside(m.ke, m.map_ke), m.map_ke);
     out.index.value = m.ni && *m.ni > 0 ? *m.ni : 1.0;
@@ -204,7 +206,7 @@ double ObjMaterials::dissolve_of(const MtlMaterial& m) {
     double d = m.d.value_or(1.0);
     if (!m.d && m.tr) {
         d = 1.0 - *m.tr;
-        if (d <= 0.0) {
+        if (d <= 0.0 && !is_glass(m)) {
             diagnostics_.warning(m.location, "'Tr' alone makes the material '" +
                                                  m.name.substr(0, 200) +
                                                  "' invisible; it is taken as opaque");

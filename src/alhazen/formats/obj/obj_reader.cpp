@@ -20,7 +20,7 @@ constexpr int kMaxFileErrors = 50;
 struct RunsOfPart {
     std::uint32_t name = 0, material = 0;
     std::vector<std::uint32_t> runs;
-    bool has_uvs = false, has_normals = false;
+    bool has_uvs = false, has_all_uvs = false, has_normals = false;
 };
 
 class PartMaker {
@@ -117,12 +117,14 @@ class PartMaker {
         if (in_.corners.uv.empty() && in_.corners.normal.empty()) return;
         std::vector<bool> wanted(in_.runs.size());
         for (RunsOfPart& group : groups) {
+            group.has_all_uvs = true;
             for (const std::uint32_t r : group.runs) {
                 in_.for_each_face_in(
                     r, [&](const ObjRun&, std::uint32_t begin, std::uint32_t end, std::uint32_t) {
                         for (std::uint32_t c = begin; c < end; ++c) {
                             const ObjCorner corner = in_.corners[c];
                             group.has_uvs = group.has_uvs || corner.uv >= 0;
+                            group.has_all_uvs = group.has_all_uvs && corner.uv >= 0;
                             group.has_normals = group.has_normals || corner.normal >= 0;
                         }
                     });
@@ -137,6 +139,7 @@ class PartMaker {
         part.name = in_.names[group.name];
         part.material = group.material;
         part.line = in_.faces[in_.runs[group.runs.front()].first_face].line;
+        part.lacks_uvs = !group.has_all_uvs;
         number_vertices(group, alone, part.mesh);
         make_triangles(group, part.mesh);
         if (errors_ == 0) make_normals_unit(part.mesh);

@@ -31,7 +31,8 @@ struct ObjPart {
     std::string name;        ///< the object, "object/group" or the group; may be empty
     std::uint32_t material;  ///< index in ObjStatements::materials
     std::uint32_t line;      ///< of its first face
-    TriangleMesh mesh;
+    bool lacks_uvs;          ///< corners of its faces have no texture coordinates
+    TriangleMesh mesh;       ///< its uvs of such corners, if any has some, are (0, 0)
 };
 
 /// The meshes of a file in the order of their first faces; empty after an error. Consumes the

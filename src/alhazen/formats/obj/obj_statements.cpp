@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "alhazen/formats/obj/obj_pieces.h"
 #include "alhazen/formats/text/text_cursor.h"
@@ -174,6 +175,7 @@ class StatementReader {
             result_.weights.resize(result_.positions.size() - 1, 1.0);
             result_.weights.push_back(numbers_[3]);
         }
+        if (count == 5) warn_of_five_numbers();
         if (count < 6) {
             if (!result_.colors.empty()) result_.colors.emplace_back();
             return;
@@ -183,6 +185,12 @@ class StatementReader {
         const double* const c = &numbers_[count == 7 ? 4 : 3];
         result_.colors.push_back({float(c[0]), float(c[1]), float(c[2]), 1});
         brightest_ = std::max({brightest_, c[0], c[1], c[2]});
+    }
+    void warn_of_five_numbers() {
+        if (std::exchange(told_of_five_, true)) return;
+        diagnostics_.warning(cursor_.location(file_),
+                             "a 'v' of five numbers is neither a point and a weight nor a point "
+                             "and a colour: the last two are ignored");
     }
     /// Converts colours from display encoding; range 0..1, or 0..255 if any value is above 1.
     void finish_colors() {
@@ -405,6 +413,7 @@ class StatementReader {
     bool known_ = false;
     bool warned_ = false;
     bool warned_of_call_ = false;
+    bool told_of_five_ = false;
     bool too_many_libraries_ = false;
 };
 

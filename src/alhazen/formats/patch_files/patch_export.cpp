@@ -74,7 +74,6 @@ void append_bpt(const NamedSurface& surface, const PatchList& list, std::string&
 
 void append_obj_points(const NamedSurface& surface, const std::vector<Vec3>& points,
                        const std::vector<double>& weights, std::string& out) {
-    out += "o " + one_name(surface.name) + '\n';
     if (const std::string material = one_name(surface.material); !material.empty()) {
         out += "usemtl " + material + '\n';
     }
@@ -236,7 +235,10 @@ std::string bpt_text(std::span<const NamedSurface> surfaces) {
 
 std::string obj_surfaces_text(std::span<const NamedSurface> surfaces) {
     std::string out;
-    for (const NamedSurface& surface : surfaces) {
+    const std::vector<std::string> names = object_names(surfaces, "surface");
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const NamedSurface& surface = surfaces[i];
+        out += "o " + names[i] + '\n';
         if (const auto* nurbs = std::get_if<NurbsSurface>(surface.shape)) {
             append_obj_nurbs(surface, *nurbs, out);
         } else if (const std::optional<PatchList> list = patches_of(*surface.shape)) {

@@ -36,9 +36,9 @@ struct NamedSurface {
 
 /// All patches of the surfaces. Precondition: fits_bpt for each.
 [[nodiscard]] std::string bpt_text(std::span<const NamedSurface> surfaces);
-/// Text with one `o` per surface; indices are relative, so that the text may follow any other.
-/// Trimming loops are written in order: the first as the outer one, all others as holes, which is
-/// odd-even nesting of one level.
+/// Text with one `o` per surface, all of different names; indices are relative, so that the text
+/// may follow any other. Trimming loops are written in order: the first as the outer one, all
+/// others as holes, which is odd-even nesting of one level.
 [[nodiscard]] std::string obj_surfaces_text(std::span<const NamedSurface> surfaces);
 
 }  // namespace alhazen

@@ -1,5 +1,6 @@
 #include "alhazen/formats/ply/ply_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -85,13 +86,15 @@ class BodyReader {
             diagnostics_.error(element.location, "element vertex needs the properties x, y and z");
             return false;
         }
-        layout.reserve(mesh_, element.count);
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            interruption_point();
-            if (!read_vertex(element, i, layout) && !recover()) return false;
-            layout.append(mesh_);
+        for (const std::string& oddity : layout.oddities()) {
+            diagnostics_.warning(element.location, oddity);
         }
-        return true;
+        layout.reserve(mesh_, element.count);
+        return read_items(element, [&](std::uint64_t i) {
+            const bool good = read_vertex(element, i, layout);
+            layout.append(mesh_);
+            return good;
+        });
     }
     bool read_vertex(const PlyElement& element, std::uint64_t i, PlyVertexLayout& layout) {
         for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -100,15 +103,65 @@ class BodyReader {
         if (is_finite(layout.position())) return true;
         return fail(element, i, "a position that is not finite", values_);
     }
+    /// Reads the items of an element by `read(i)`; false if the rest cannot be read.
+    ///
+    /// An item of an ascii file is a line, and may be several lines (a number in each, wrapped
+    /// lists) or, from the first on, a part of one. It fails where it takes the end of one line and
+    /// only the beginning of another, or begins behind others where the first was a line.
+    template <class Read>
+    bool read_items(const PlyElement& element, const Read& read) {
+        bool is_line = false;  // the first item
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            interruption_point();
+            if constexpr (!Values::kHasLines) {
+                if (!read(i)) return false;
+            } else {
+                const bool begins = values_.begins_line();
+                const Values start = values_;
+                const auto fail_line = [&](const char* message) {
+                    values_ = start;
+                    fail(element, i, message, start);
+                    return recover();
+                };
+                const auto surplus = [&] {
+                    if (i > 0) --i;  // these values are of no item
+                    return fail_line("the line has more values than the header names");
+                };
+                if (is_line && !begins) {
+                    if (!surplus()) return false;
+                    continue;
+                }
+                if (!read(i)) {
+                    if (!recover()) return false;
+                    continue;
+                }
+                const bool in_line = values_.line() == start.line(), ends = values_.ends_line();
+                if (i == 0) is_line = begins && in_line && ends;
+                if (in_line || ends) continue;
+                if (begins ? !fail_line("the line has fewer values than the header names")
+                           : !surplus()) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
     /// Recovers after an error if possible, to report further errors.
     bool recover() { return errors_ < kMaxPlyErrors && values_.recover(); }
 
     /// Index of the list of vertices among the properties of a face or strip.
-    [[nodiscard]] static std::size_t find_list(const PlyElement& element) {
-        std::size_t list = element.properties.size();
-        for (std::size_t k = 0; k < element.properties.size(); ++k) {
+    std::size_t find_list(const PlyElement& element) {
+        const std::size_t none = element.properties.size();
+        std::size_t list = none;
+        for (std::size_t k = 0; k < none; ++k) {
             const PlyProperty& p = element.properties[k];
-            if (p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index")) list = k;
+            if (!p.count_type || (p.name != "vertex_indices" && p.name != "vertex_index")) continue;
+            if (list != none) {
+                diagnostics_.warning(element.location,
+                                     "a " + element.name + " has two lists of vertices; '" +
+                                         element.properties[list].name + "' is ignored");
+            }
+            list = k;
         }
         return list;
     }
@@ -129,9 +182,9 @@ class BodyReader {
         }
         const bool strips = element.name == "tristrips";
         if (!strips) mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            interruption_point();
-            if (!read_face(element, i, list, strips) && !recover()) return false;
+        if (!read_items(element,
+                        [&](std::uint64_t i) { return read_face(element, i, list, strips); })) {
+            return false;
         }
         free_diagonals(mesh_.positions, polygons_, mesh_.triangles);
         polygons_.clear();
@@ -163,7 +216,9 @@ class BodyReader {
                 in_strip = 0;
                 continue;
             }
-            if (!is_vertex(index)) return bad_index(element, item, start);
+            if (!is_vertex(index)) {
+                return bad_index(element, item, index == std::floor(index), start);
+            }
             const std::uint32_t vertex = std::uint32_t(index);
             if (in_strip >= 2 && vertex != last[0] && vertex != last[1] && last[0] != last[1]) {
                 const bool odd = in_strip % 2 != 0;
@@ -180,16 +235,17 @@ class BodyReader {
         std::uint64_t count = 0;
         if (!read_length(element, property, item, count)) return false;
         polygon_.clear();
-        bool in_range = true;
+        bool in_range = true, whole = true;
         for (std::uint64_t k = 0; k < count; ++k) {
             double index = 0.0;
             if (!read_value(element, property.type, item, index)) return false;
             in_range = in_range && is_vertex(index);
             polygon_.push_back(in_range ? std::uint32_t(index) : 0);
+            whole = whole && index == std::floor(index);
         }
         // The item is read completely; the next one can be read.
         if (!in_range) {
-            bad_index(element, item, start);
+            bad_index(element, item, whole, start);
             return errors_ < kMaxPlyErrors;
         }
         if (count < 3) {
@@ -204,10 +260,11 @@ class BodyReader {
     [[nodiscard]] bool is_vertex(double index) const {
         return index >= 0.0 && index < double(mesh_.positions.size()) && index == std::floor(index);
     }
-    bool bad_index(const PlyElement& element, std::uint64_t item, const Values& at) {
+    bool bad_index(const PlyElement& element, std::uint64_t item, bool whole, const Values& at) {
         return fail(element, item,
-                    "a vertex index outside the range of " +
-                        std::to_string(mesh_.positions.size()) + " vertices",
+                    whole ? "a vertex index outside the range of " +
+                                std::to_string(mesh_.positions.size()) + " vertices"
+                          : "a vertex index that is not a whole number",
                     at);
     }
 
@@ -215,13 +272,15 @@ class BodyReader {
         // Elements without properties occupy no bytes, whatever their count.
         if (element.properties.empty() || values_.skip(element)) return true;
         double unused = 0.0;
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            interruption_point();
-            for (const PlyProperty& property : element.properties) {
-                if (!read_property(element, property, i, unused)) return false;
-            }
-        }
-        return true;
+        return read_items(element,
+                          [&](std::uint64_t i) {
+                              const auto read = [&](const PlyProperty& property) {
+                                  return read_property(element, property, i, unused);
+                              };
+                              return std::all_of(element.properties.begin(),
+                                                 element.properties.end(), read);
+                          }) &&
+               errors_ == 0;
     }
 
     /// Reads a scalar into `value`, or skips a list.

@@ -19,12 +19,23 @@ namespace alhazen {
 class AsciiValues {
   public:
     static constexpr std::size_t kListItemBytes = 2;
+    static constexpr bool kHasLines = true;
 
     AsciiValues(std::string_view bytes, const PlyHeader& header)
         : cursor_(bytes.substr(header.body_offset), header.body_line) {}
 
     bool read(PlyType, double& value) { return cursor_.skip_to_word() && cursor_.number(value); }
     bool skip(const PlyElement&) { return false; }
+    /// Moves to the next value; true if that is the first of its line.
+    bool begins_line() {
+        cursor_.skip_to_word();
+        return cursor_.begins_line();
+    }
+    [[nodiscard]] bool ends_line() const {
+        TextCursor next = cursor_;
+        return !next.skip_blanks();
+    }
+    [[nodiscard]] std::int64_t line() const { return cursor_.line(); }
     /// Recovers after an error: continues with the next line.
     bool recover() {
         cursor_.skip_line();
@@ -63,6 +74,7 @@ T load_number(const char* bytes, bool swap) {
 class BinaryValues {
   public:
     static constexpr std::size_t kListItemBytes = 1;
+    static constexpr bool kHasLines = false;
 
     BinaryValues(std::string_view bytes, const PlyHeader& header)
         : rest_(bytes.substr(header.body_offset)),

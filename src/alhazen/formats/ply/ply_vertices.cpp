@@ -40,6 +40,39 @@ PlyVertexLayout::PlyVertexLayout(const PlyElement& element, bool exact) {
     colors_ = has(kColor, 3);
     tangents_ = has(kTangent, 4);
     materials_ = has(kMaterial, 1);
+    find_oddities(element);
+}
+
+void PlyVertexLayout::find_oddities(const PlyElement& element) {
+    std::array<std::size_t, kUnused> last{};
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+        const std::size_t slot = slots_[k];
+        if (slot == kUnused) continue;
+        const std::size_t before = std::exchange(last[slot], k + 1);
+        if (before == 0) continue;
+        oddities_.push_back("'" + element.properties[before - 1].name +
+                            "' of a vertex is ignored, because '" + element.properties[k].name +
+                            "' follows");
+    }
+    struct Group {
+        std::size_t first, count;
+        const char* names;
+    };
+    static constexpr std::array<Group, 5> kGroups{{{kNormal, 3, "nx, ny and nz"},
+                                                   {kUv, 2, "u and v"},
+                                                   {kUv2, 2, "u2 and v2"},
+                                                   {kColor, 3, "red, green and blue"},
+                                                   {kTangent, 4, "tx, ty, tz and tsign"}}};
+    for (const Group& group : kGroups) {
+        if (has(group.first, group.count)) continue;
+        for (std::size_t slot = group.first; slot < group.first + group.count; ++slot) {
+            if (last[slot] == 0) continue;
+            oddities_.push_back("'" + element.properties[last[slot] - 1].name +
+                                "' of a vertex is ignored: only all of " + group.names +
+                                " have a meaning");
+            break;
+        }
+    }
 }
 
 std::size_t PlyVertexLayout::slot_of(const PlyProperty& property, bool exact) {

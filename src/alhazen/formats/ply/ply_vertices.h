@@ -5,6 +5,7 @@
 /// are converted to linear (IEC 61966-2-1); float colours are linear.
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "alhazen/formats/ply/ply_header.h"
@@ -20,6 +21,8 @@ class PlyVertexLayout {
     explicit PlyVertexLayout(const PlyElement& element, bool exact);
 
     [[nodiscard]] bool has_positions() const { return has(kX, 3); }
+    /// Properties that are ignored because others replace them or are missing; a sentence each.
+    [[nodiscard]] const std::vector<std::string>& oddities() const { return oddities_; }
     /// Reserves memory in the arrays in use.
     void reserve(TriangleMesh& mesh, std::uint64_t count) const;
     /// Storage for the value of the k-th property.
@@ -37,7 +40,10 @@ class PlyVertexLayout {
     [[nodiscard]] static std::size_t slot_of(const PlyProperty& property, bool exact);
     [[nodiscard]] float color(std::size_t slot) const;
 
+    void find_oddities(const PlyElement& element);
+
     std::vector<std::size_t> slots_;  ///< [property]
+    std::vector<std::string> oddities_;
     std::array<double, kUnused + 1> values_{};
     std::array<bool, kUnused + 1> present_{};
     std::array<PlyType, kUnused + 1> types_{};

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "alhazen/base/interruption.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/mesh/vertex_welder.h"
 #include "alhazen/formats/text/text_cursor.h"
 
@@ -120,6 +121,7 @@ class StlReader {
 
   private:
     void read_damaged_binary() {
+        if (is_utf16(bytes_)) return error({file_, 1, 1}, kUtf16Found);
         const std::string size = std::to_string(bytes_.size());
         if (bytes_.size() < kHeaderBytes) {
             return error({file_, 0, 0}, "not an STL file: " + size +
@@ -165,6 +167,7 @@ class StlReader {
         const auto printable = [](char c) { return c >= 0x20 && c < 0x7f; };
         if (!std::all_of(header.begin(), header.end(), printable)) return {};
         while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
+        if (header == kStlHeader) return {};
         if (header.starts_with("solid ")) header.remove_prefix(6);
         return std::string(header);
     }

@@ -17,9 +17,12 @@
 
 namespace alhazen {
 
+/// The header of files of this library. It is no name.
+inline constexpr std::string_view kStlHeader = "binary STL by Alhazen";
+
 struct StlSolid {
-    std::string name;
-    int line = 0;  ///< ascii files only
+    std::string name;  ///< may be empty
+    int line = 0;      ///< ascii files only
     TriangleMesh mesh;
 };
 

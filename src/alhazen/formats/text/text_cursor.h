@@ -52,6 +52,12 @@ class TextCursor {
     }
     /// True at white space, at a backslash that continues the line, and at the end of the text.
     [[nodiscard]] bool at_word_end() const { return ends_word(next_); }
+    /// True if only blanks precede the next character in its line.
+    [[nodiscard]] bool begins_line() const {
+        const char* at = next_;
+        while (at != line_start_ && is_blank(at[-1])) --at;
+        return at == line_start_;
+    }
     /// Moves past the end of this line.
     void skip_line() {
         while (next_ != end_ && !is_newline(*next_)) ++next_;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "alhazen/scene_model/read_pictures.h"
+
 namespace alhazen {
 
 namespace {
@@ -75,7 +77,8 @@ class Collector {
                   std::vector<NamedMesh>& out) const {
         if (mesh.mesh->triangles.empty()) return;
         out.push_back({part.name.empty() ? mesh.name : part.name, mesh.mesh.get(), placement,
-                       material_names_[static_cast<std::size_t>(part.material)], material_names_});
+                       material_names_[static_cast<std::size_t>(part.material)], material_names_,
+                       reads_pictures(d_, part.material, *mesh.mesh)});
     }
 
     const SceneDescription& d_;

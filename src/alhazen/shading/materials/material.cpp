@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/materials/textures_of.h"
 
 namespace alhazen {
 
@@ -24,15 +25,12 @@ Rgba texel_of(const ImageTexture& texture, const SurfaceLookup& lookup) {
         {transform.linear(lookup.footprint[set].a), transform.linear(lookup.footprint[set].b)});
 }
 
-}  // namespace
-
-Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
-    return std::visit([&](const auto& texture) { return texel_of(texture, lookup); },
-                      textures[static_cast<std::uint32_t>(id)]);
-}
-
-bool reads_textures(const Material& m) {
-    const auto any = [](const auto&... input) { return ((input.texture != kNoTexture) || ...); };
+/// True if `is` is true of a texture of the material.
+template <class Is>
+bool any_texture(const Material& m, const Is& is) {
+    const auto any = [&](const auto&... input) {
+        return ((input.texture != kNoTexture && is(input.texture)) || ...);
+    };
     if (any(m.emission, m.ambient, m.diffuse, m.specular, m.reflective, m.transmissive, m.shininess,
             m.index, m.roughness, m.alpha, m.normal_map)) {
         return true;
@@ -43,7 +41,27 @@ bool reads_textures(const Material& m) {
                p.transmission, p.thickness, p.coat.strength, p.coat.roughness, p.coat.normal_map,
                p.sheen.color, p.sheen.roughness, p.film.strength, p.anisotropy,
                p.diffuse_transmission.share, p.diffuse_transmission.color) ||
-           p.film.thickness_texture != kNoTexture;
+           (p.film.thickness_texture != kNoTexture && is(p.film.thickness_texture));
+}
+
+}  // namespace
+
+Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
+    return std::visit([&](const auto& texture) { return texel_of(texture, lookup); },
+                      textures[static_cast<std::uint32_t>(id)]);
+}
+
+std::vector<TextureId> textures_of(const Material& m) {
+    std::vector<TextureId> all;
+    (void)any_texture(m, [&](TextureId texture) {
+        all.push_back(texture);
+        return false;
+    });
+    return all;
+}
+
+bool reads_textures(const Material& m) {
+    return any_texture(m, [](TextureId) { return true; });
 }
 
 bool reads_coordinates(const Material& m) {

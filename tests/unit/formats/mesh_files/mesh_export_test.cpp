@@ -167,6 +167,58 @@ TEST(MeshExport, ANameInAnObjBeginsNoComment) {
     EXPECT_EQ(back("wheel #2 a#"), "wheel #2 a#");
 }
 
+TEST(MeshExport, PartsOfEqualNamesAndOfNoneStayApartInAnObj) {
+    const TriangleMesh mesh = ball(1);
+    std::vector<NamedMesh> meshes;
+    for (const char* name : {"b", "", "b", "b_", "b\n", "", "b_2"}) {
+        const Affine placement = Affine::translate({0.5 * double(meshes.size()), 0, 0});
+        meshes.push_back({name, &mesh, placement, ""});
+    }
+    Diagnostics found;
+    const SceneDescription scene = import_text(obj_text(meshes), "a.obj", found);
+    ASSERT_EQ(scene.meshes.size(), meshes.size()) << text_of(found);
+    EXPECT_EQ(scene.meshes[0].name, "b");
+    EXPECT_EQ(scene.meshes[3].name, "b_");
+    EXPECT_EQ(scene.meshes[6].name, "b_2");
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        TriangleMesh placed = mesh;
+        placed.transform(meshes[i].placement);
+        EXPECT_EQ(triangle_set(*scene.meshes[i].mesh), triangle_set(placed)) << i;
+        EXPECT_FALSE(scene.meshes[i].name.empty());
+    }
+}
+
+TEST(MeshExport, PicturesOnAMeshWithoutCoordinatesStayInPlaceInAnObj) {
+    const TriangleMesh mesh = ball(2);
+    for (const Affine& placement : {Affine{}, Affine::scale({-1, 2, 1})}) {
+        std::vector<NamedMesh> both(2, {"a", &mesh, placement, ""});
+        both[1].needs_coordinates = true;
+        Diagnostics found;
+        const SceneDescription scene = import_text(obj_text(both), "a.obj", found);
+        ASSERT_EQ(scene.meshes.size(), 2u) << text_of(found);
+        EXPECT_TRUE(scene.meshes[0].mesh->uvs.empty());
+        const TriangleMesh& back = *scene.meshes[1].mesh;
+        ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+        TriangleMesh placed = mesh;
+        placed.transform(placement);
+        const bool mirrored = placement != Affine{};
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            // The weights of the second and third vertex change with these.
+            const double u = 0.25, v = 0.125;
+            ShapeHit before, after;
+            before.u = u;
+            before.v = v;
+            after.u = mirrored ? v : u;
+            after.v = mirrored ? u : v;
+            const ShapeSurface a = placed.surface(i, before), b = back.surface(i, after);
+            EXPECT_EQ(a.uv, b.uv);
+            EXPECT_NEAR(length(a.point - b.point), 0.0, 1e-14);
+            EXPECT_EQ(a.dpdu, b.dpdu);
+            EXPECT_EQ(a.dpdv, b.dpdv);
+        }
+    }
+}
+
 TEST(MeshExport, MirroredPlacementsKeepTheOutsideOutside) {
     const TriangleMesh mesh = ball(2);
     const double volume = signed_volume(mesh);

@@ -82,6 +82,47 @@ TEST(NativeImporter, ReadsPatchFiles) {
     EXPECT_NE(error_of("patch_mesh { file = \"../flat.bpt\" }").find("error"), std::string::npos);
 }
 
+TEST(NativeImporter, AByteOrderMarkIsNoPartOfAFile) {
+    const Folder folder;
+    folder.write("i.alhazen",
+                 "\xEF\xBB\xBF"
+                 "alhazen 1\nsphere {}\n");
+    folder.write("p.bpt",
+                 "\xEF\xBB\xBF"
+                 "1\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+    const Imported read = import_native_file(folder.write(
+        "a.alhazen", "alhazen 1 include \"i.alhazen\"; patch_mesh { file = \"p.bpt\" }"));
+    EXPECT_EQ(read.messages(), "");
+    EXPECT_EQ(read.parts().size(), 2u);
+}
+
+TEST(NativeImporter, Utf16TextIsToldOf) {
+    const Folder folder;
+    const std::string text(
+        "\xFF\xFE"
+        "a\0l\0",
+        6);
+    EXPECT_EQ(import_native_file(folder.write("u.alhazen", text)).messages(),
+              (folder.write("u.alhazen", text).string() +
+               ":1:1: error: the file is UTF-16 text; expected ASCII or UTF-8\n"));
+    const Imported outer =
+        import_native_file(folder.write("a.alhazen", "alhazen 1 include \"u.alhazen\";"));
+    EXPECT_EQ(outer.errors(), 1u);
+    EXPECT_TRUE(outer.says("u.alhazen:1:1: error: the file is UTF-16 text")) << outer.messages();
+}
+
+TEST(NativeImporter, AFailedPatchFileIsOneError) {
+    const Folder folder;
+    folder.write("bad.bpt", "1\n1 1\n0 0 0\n0 x 0\n1 0 0\n1 1 0\n");
+    for (const char* file : {"bad.bpt", "none.bpt", "../a.bpt"}) {
+        Imported read = import_native_file(folder.write(
+            "a.alhazen",
+            "alhazen 1 sphere {} patch_mesh { file = \"" + std::string(file) + "\" }"));
+        validate(read.scene, read.diagnostics);
+        EXPECT_EQ(read.errors(), 1u) << read.messages();
+    }
+}
+
 TEST(NativeImporter, IncludesFilesRelativeToTheIncludingOne) {
     const Folder folder;
     folder.write("parts/inner.alhazen", "alhazen 1 material \"m\" { diffuse = .3 } sphere { }");

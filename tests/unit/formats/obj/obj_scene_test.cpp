@@ -135,6 +135,9 @@ TEST(ObjScene, CoefficientsFollowTheIlluminationModel) {
     EXPECT_EQ(material_of("Ke 10 10 10\n").emission.color, (Rgb{10, 10, 10}));
     EXPECT_EQ(material_of("").diffuse.color, (Rgb{.7, .7, .7}));
     EXPECT_EQ(material_of("Kd .5\n").diffuse.color, (Rgb{.5, .5, .5}));
+    Diagnostics found;
+    EXPECT_EQ(material_of("Kd .5 .2\n", found).diffuse.color, (Rgb{.5, .2, .2}));
+    EXPECT_TRUE(mentions(found, "a.mtl:2:1: warning: a colour of two numbers")) << text_of(found);
 
     const Material glass = material_of("Kd 0 0 0\nKs .3 .3 .3\nTf .9 .8 .7\nNi 1.5\nillum 7\n");
     EXPECT_EQ(glass.transmissive.color, (Rgb{.9, .8, .7}));
@@ -142,6 +145,13 @@ TEST(ObjScene, CoefficientsFollowTheIlluminationModel) {
     EXPECT_EQ(glass.index.value, 1.5);
     EXPECT_EQ(material_of("d .25\nillum 6\n").transmissive.color, (Rgb{.75, .75, .75}));
     EXPECT_TRUE(material_of("Tf 1 1 1\nd 1\nillum 2\n").transmissive.color.is_black());
+    for (const char* illum : {"4", "6", "7", "9"}) {
+        const std::string model = std::string("illum ") + illum + "\n";
+        EXPECT_EQ(material_of("Tr 1\n" + model).transmissive.color, (Rgb{1, 1, 1})) << illum;
+        EXPECT_EQ(material_of("Tr .5\n" + model).transmissive.color, (Rgb{.5, .5, .5}));
+        EXPECT_EQ(material_of("Tf 1 0 0\nTr 1\n" + model).transmissive.color, (Rgb{1, 0, 0}));
+        EXPECT_TRUE(material_of("Tr 0\n" + model).transmissive.color.is_black());
+    }
 }
 
 TEST(ObjScene, DissolvedMaterialsAreBlended) {
@@ -204,6 +214,47 @@ TEST(ObjScene, PicturesAreFoundWithBlanksOptionsAndOtherCapitals) {
             EXPECT_EQ(t.apply({1, 1}), (Vec2{2.25, 3.5}));
         }
     }
+}
+
+TEST(ObjScene, AnAmbientPictureCountsAloneBesideABlackOrMissingColour) {
+    for (const char* black : {"", "Ka 0 0 0\n"}) {
+        const WithPicture s(black + std::string("Kd .5 .5 .5\nmap_Ka my pic.png\n"));
+        EXPECT_EQ(text_of(s.found), "");
+        EXPECT_EQ(s.material().ambient.color, (Rgb{1, 1, 1}));
+        ASSERT_NE(s.material().ambient.texture, kNoTexture);
+        EXPECT_EQ(s.material().diffuse.texture, kNoTexture);
+        // Without the picture the ambient colour is the diffuse one.
+        const WithPicture gone(black + std::string("Kd .5 .5 .5\nmap_Ka gone.png\n"));
+        EXPECT_TRUE(mentions(gone.found, "'gone.png'")) << text_of(gone.found);
+        EXPECT_EQ(gone.material().ambient.color, (Rgb{.5, .5, .5}));
+    }
+    const WithPicture both("Ka .25 .5 1\nmap_Ka my pic.png\nKd 1 1 1\n");
+    EXPECT_EQ(both.material().ambient.color, (Rgb{.25, .5, 1}));
+    EXPECT_NE(both.material().ambient.texture, kNoTexture);
+}
+
+TEST(ObjScene, FacesWithoutCoordinatesHaveThePicturesAtTheOrigin) {
+    const TemporaryFolder folder;
+    Image image(2, 2, 3);
+    write_image(folder.path() / "p.png", image, {});
+    folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd p.png\nnewmtl plain\nKd 1 1 1\n");
+    const std::string start = "mtllib a.mtl\n" + kSquare + "vt .75 .25\n";
+    const auto uvs_of = [&](const std::string& faces, bool told) {
+        Diagnostics found;
+        const SceneDescription scene = scene_of(start + faces, found, folder.path());
+        EXPECT_EQ(found.warning_count(), told ? 1u : 0u) << faces << text_of(found);
+        EXPECT_EQ(mentions(found, "a.obj:8: warning: the mesh 'm' has faces without texture"), told)
+            << text_of(found);
+        Diagnostics none;
+        validate(scene, none);
+        EXPECT_EQ(text_of(none), "");
+        return scene.meshes.at(0).mesh->uvs;
+    };
+    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\n", true), std::vector<Vec2>(4));
+    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\nf 1/1 2/1 3/1\n", true),
+              (std::vector<Vec2>{{}, {}, {}, {}, {.75, .25}, {.75, .25}, {.75, .25}}));
+    EXPECT_EQ(uvs_of("usemtl m\nf 1/1 2/1 3/1\n", false), std::vector<Vec2>(3, {.75, .25}));
+    EXPECT_TRUE(uvs_of("usemtl plain\nf 1 2 3 4\n", false).empty());
 }
 
 TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
@@ -420,7 +471,8 @@ TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
                      "vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1#c\nusemtl b\nf 1/1 2/1 3/1 # c\n"
                      "f 1 2 3# c\n",
                  found, folder.path());
-    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(found.all().size(), 1u) << text_of(found);
+    EXPECT_TRUE(mentions(found, "the mesh 'b' has faces without texture coordinates"));
     EXPECT_EQ(scene.textures.size(), 2u);
     ASSERT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(scene.meshes[0].mesh->triangles.size(), 2u);

@@ -162,6 +162,10 @@ TEST(Obj, ColoursOfVerticesAreDecodedFromTheirDisplayValues) {
     const auto bytes = colors("v 0 0 0 255 0 127.5\n");
     EXPECT_EQ(bytes[0].r, 1.0f);
     EXPECT_NEAR(bytes[0].b, 0.21404114, 1e-7);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_TRUE(colors("v 0 0 0 1 1\nv 0 0 0 1 1\n").empty());
+    EXPECT_EQ(found.warning_count(), 1u);
+    EXPECT_TRUE(mentions(found, "a.obj:1:12: warning: a 'v' of five numbers")) << text_of(found);
 }
 
 TEST(Obj, IndicesOfNormalsAndCoordinatesThatTheFileLeavesOutAreAWarning) {

@@ -72,6 +72,24 @@ TEST(PatchExport, PatchesComeBackBitForBit) {
     }
 }
 
+TEST(PatchExport, SurfacesOfEqualNamesAndOfNoneStayApartInAnObj) {
+    testing::Random random(24);
+    std::vector<AnyShape> shapes;
+    std::vector<NamedSurface> surfaces;
+    shapes.reserve(4);
+    for (const char* name : {"", "a", "", "a"}) {
+        shapes.emplace_back(RandomShape<BezierPatch>::make({random, false}));
+        surfaces.push_back({name, &shapes.back(), {}, ""});
+    }
+    const auto read = testing::import_text<ObjImporter>(obj_surfaces_text(surfaces), "a.obj");
+    ASSERT_EQ(read.parts().size(), 4u) << read.messages();
+    EXPECT_EQ(read.parts()[1].name, "a");
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& mesh = std::get<PatchMesh>(std::get<AnyShape>(read.parts()[i].what));
+        EXPECT_EQ(nets_of(mesh), nets_of(std::get<BezierPatch>(shapes[i])));
+    }
+}
+
 TEST(PatchExport, NurbsSurfacesComeBackWithTheirLoops) {
     testing::Random random(21);
     for (int i = 0; i < 60; ++i) {

@@ -50,8 +50,11 @@ TEST(PlyScene, IntegerColoursAreDecodedAndFloatsAreLinear) {
               (VertexColor{0.25f, 2, 0.5f, 0.75f}));
     EXPECT_EQ(color("ushort", "red green blue", "65535 0 0"), (VertexColor{1, 0, 0, 1}));
     EXPECT_EQ(color("uchar", "red green blue", "256 -1 0"), (VertexColor{1, 0, 0, 1})) << "clamped";
-    EXPECT_EQ(color("uchar", "red green", "1 2"), (VertexColor{-1, -1, -1, -1}));
     EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(color("uchar", "red green", "1 2"), (VertexColor{-1, -1, -1, -1}));
+    EXPECT_EQ(text_of(found),
+              "a.ply:3:1: warning: 'red' of a vertex is ignored: only all of red, green and blue "
+              "have a meaning\n");
 }
 
 TEST(PlyScene, StripsOfTrianglesKeepTheirOrientation) {

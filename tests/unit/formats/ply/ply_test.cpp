@@ -146,9 +146,64 @@ TEST(Ply, LinesOfMoreValuesThanDeclaredThatLeaveNoFaceAreToldOf) {
         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
         "0 0 0 9 9\n1 0 0\n0 1 0\n3 0 1 2\n";
     EXPECT_TRUE(mesh_of(text, "a.ply", found).triangles.empty());
-    EXPECT_TRUE(mentions(found, "a.ply:13:1: error: no face has three vertices or more; "))
-        << text_of(found);
-    EXPECT_TRUE(mentions(found, "does each line have the values that the header names?"));
+    EXPECT_EQ(text_of(found),
+              "a.ply:10:7: error: vertex 0: the line has more values than the header names\n");
+    // Two vertices in each line.
+    std::string all = text;
+    all.replace(all.find("0 0 0 9 9"), std::string::npos, "0 0 0 9 9 9\n1 0 0 0 0 0\n3 0 1 2\n");
+    Diagnostics other;
+    EXPECT_TRUE(mesh_of(all, "a.ply", other).triangles.empty());
+    EXPECT_TRUE(mentions(other, "a.ply:11:9: error: no face has three vertices or more; "))
+        << text_of(other);
+    EXPECT_TRUE(mentions(other, "does each line have the values that the header names?"));
+}
+
+TEST(Ply, AnItemOfAnAsciiFileEndsWithItsLine) {
+    const auto findings = [](const std::string& vertices, const std::string& faces) {
+        std::string text = kPlySquare;
+        text.erase(text.find("0 0 0"));
+        Diagnostics found;
+        const TriangleMesh mesh = mesh_of(text + vertices + faces, "a.ply", found);
+        EXPECT_EQ(mesh.triangles.empty(), found.error_count() != 0);
+        return text_of(found);
+    };
+    const std::string face = "4 0 1 2 3\n", more = "the line has more values than the header names",
+                      fewer = "the line has fewer values than the header names";
+    EXPECT_EQ(
+        findings("0 0 0\n1 0\n1 1 0 0\n0 1 0\n", face),
+        "a.ply:12:1: error: vertex 1: " + fewer + "\na.ply:13:7: error: vertex 2: " + more + "\n");
+    EXPECT_EQ(findings("0 0 0\n1 0 0 5\n1 1 0\n0 1 0\n", face),
+              "a.ply:12:7: error: vertex 1: " + more + "\n");
+    EXPECT_EQ(findings("0 0 0\n1 0 0 1 1 0\n0 1 0\n", face).substr(0, 12), "a.ply:12:7: ");
+    EXPECT_EQ(findings("0 0 0\n1 0 0\n1 1 0\n0 1\n", face).substr(0, 12), "a.ply:14:1: ");
+    // One number in a line, all in one, two items in each, wrapped lists.
+    EXPECT_EQ(findings("0\n0\n0\n1\n0\n0\n1\n1\n0\n0\n1\n0\n", "4\n0\n1\n2\n3\n"), "");
+    EXPECT_EQ(findings("0 0 0 1 0 0 1 1 0 0 1 0 ", face), "");
+    EXPECT_EQ(findings("0 0 0 1 0 0\r\n1 1 0 0 1 0\r\n", "4 0 1\r\n 2 3 \r\n"), "");
+    EXPECT_EQ(findings("  0 0 0\n\n 1 0 0 \n1 1 0\t\n0 1 0\n", face), "");
+}
+
+TEST(Ply, PropertiesThatMeanNothingAreToldOf) {
+    const auto warnings = [](const std::string& from, const std::string& to,
+                             const std::string& values) {
+        std::string text = kPlySquare;
+        text.replace(text.find(from), from.size(), to + "\n" + from);
+        for (const char* vertex : {"0 0 0\n", "1 0 0\n", "1 1 0\n", "0 1 0\n"}) {
+            if (from[0] == 'e') text.insert(text.find(vertex, text.find("end_header")) + 5, values);
+        }
+        Diagnostics found;
+        EXPECT_FALSE(mesh_of(text, "a.ply", found).triangles.empty()) << text_of(found) << text;
+        return text_of(found);
+    };
+    const std::string at = "a.ply:4:1: warning: ", face = "element face";
+    EXPECT_EQ(warnings(face, "property float nx\nproperty float ny", " 0 0"),
+              at + "'nx' of a vertex is ignored: only all of nx, ny and nz have a meaning\n");
+    EXPECT_EQ(warnings(face, "property uchar green", " 9"),
+              at + "'green' of a vertex is ignored: only all of red, green and blue have a "
+                   "meaning\n");
+    EXPECT_EQ(warnings(face, "property float z", " 0"),
+              at + "'z' of a vertex is ignored, because 'z' follows\n");
+    EXPECT_EQ(warnings(face, "property float confidence", " 0"), "");
 }
 
 TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
@@ -188,6 +243,10 @@ TEST(Ply, FindingsNameTheLine) {
         std::string::npos);
     EXPECT_NE(finding("1 2 3", "1 2 4").find("a.ply:15:1: error: face 0"), std::string::npos);
     EXPECT_NE(finding("1 2 3", "1 2 -1").find("a.ply:15:1"), std::string::npos);
+    EXPECT_NE(finding("1 2 3", "1 1.5 3")
+                  .find("a.ply:15:1: error: face 0: a vertex index that is "
+                        "not a whole number"),
+              std::string::npos);
     EXPECT_NE(finding("float y", "half y").find("a.ply:6"), std::string::npos);
     EXPECT_NE(finding("ascii", "morse").find("a.ply:2"), std::string::npos);
     EXPECT_NE(finding("float z", "float w").find("a.ply:4:1"), std::string::npos);

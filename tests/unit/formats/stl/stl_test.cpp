@@ -205,6 +205,25 @@ TEST(Stl, ABinaryFileThatBeginsWithSolidIsToldOfAsBinaryWhenItsSizeIsWrong) {
     EXPECT_TRUE(mentions(more, "2 bytes behind the last facet")) << text_of(more);
 }
 
+TEST(Stl, TheHeaderOfAConvertedFileIsNoName) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const NamedMesh named{"part", &mesh, {}, ""};
+    Diagnostics found;
+    const SceneDescription scene = import_text(stl_bytes({&named, 1}), "wheel.stl", found);
+    EXPECT_EQ(scene.objects.at(0).parts.at(0).name, "wheel") << text_of(found);
+}
+
+TEST(Stl, Utf16TextIsToldOf) {
+    std::string text = "\xFF\xFE";
+    for (const char c : "solid a\n" + kFacet) (text += c) += '\0';
+    Diagnostics found;
+    EXPECT_TRUE(solids_of(text, found).empty());
+    EXPECT_EQ(text_of(found),
+              "a.stl:1:1: error: the file is UTF-16 text; expected ASCII or UTF-8\n");
+}
+
 TEST(Stl, PositionsThatAreNoNumbersNameTheirFacet) {
     auto bad = kTriangle;
     bad[4] = std::numeric_limits<float>::quiet_NaN();

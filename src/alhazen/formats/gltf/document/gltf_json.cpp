@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "alhazen/base/interruption.h"
+#include "alhazen/base/unicode_marks.h"
 
 namespace alhazen::gltf {
 
@@ -440,6 +441,10 @@ std::optional<json> parse_json(std::string_view text, const std::string& file, s
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text.starts_with(kByteOrderMark)) {
         diagnostics.error({file, 1, 1}, "JSON: the text begins with a byte order mark");
+        return std::nullopt;
+    }
+    if (is_utf16(text)) {
+        diagnostics.error({file, 1, 1}, kUtf16Found);
         return std::nullopt;
     }
     try {

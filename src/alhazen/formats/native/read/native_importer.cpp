@@ -1,5 +1,6 @@
 #include "alhazen/formats/native/read/native_importer.h"
 
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/core/default_conventions.h"
 #include "alhazen/formats/native/read/native_cameras.h"
 #include "alhazen/formats/native/read/native_include.h"
@@ -34,6 +35,10 @@ SceneDescription NativeImporter::import(const ImportSource& source,
     scene.path = source.path;
     scene.conventions = default_conventions();
     scene.objects.push_back({"scene", {}, {source.path.string(), 1, 1}});
+    if (is_utf16(source.bytes)) {
+        diagnostics.error({source.path.string(), 1, 1}, kUtf16Found);
+        return scene;
+    }
     const SourceText text(source.bytes, source.path.string());
     const TextTree tree(text,
                         {.max_nesting = source.options.max_nesting,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/native/read/native_parts.h"
 
 namespace alhazen {
@@ -80,7 +81,11 @@ void read_native_include(TextNode entry, NativeContext& context, NativeScope& sc
     std::filesystem::path path;
     const std::optional<std::string> bytes = read_bytes(entry.first(), context, scope, path);
     if (!bytes) return;
-    const SourceText text(*bytes, path.string());
+    if (is_utf16(*bytes)) {
+        context.diagnostics.error({path.string(), 1, 1}, kUtf16Found);
+        return;
+    }
+    const SourceText text(without_byte_order_mark(*bytes), path.string());
     const TextTree tree(text,
                         {.max_nesting = context.options.max_nesting,
                          .max_nodes = context.options.max_elements,

@@ -34,12 +34,12 @@ void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& s
     Part part = placed_part(reader, block, scope);
     AnyShape shape = read_native_shape(block.type, reader);
     read_native_height_picture(reader, context, scope, shape);
-    read_native_patch_file(reader, context, scope, block.location, shape);
+    const bool complete = read_native_patch_file(reader, context, scope, block.location, shape);
     part.what = std::move(shape);
     part.material = read_part_material(reader, context, scope);
     reader.finish();
     context.count_elements(1, block.location);
-    scope.parts.push_back(std::move(part));
+    if (complete) scope.parts.push_back(std::move(part));
 }
 
 void read_mesh_part(const NativeBlock& block, NativeContext& context, NativeScope& scope) {

@@ -1,29 +1,31 @@
 #include "alhazen/formats/native/read/native_patch_file.h"
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/bpt/bpt_reader.h"
 
 namespace alhazen {
 
-void read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
+bool read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
                             const FileLocation& where, AnyShape& shape) {
     auto* mesh = std::get_if<PatchMesh>(&shape);
-    if (mesh == nullptr || !reader.has("file")) return;
+    if (mesh == nullptr || !reader.has("file")) return true;
     std::string file;
-    if (!reader.read("file", file)) return;
+    if (!reader.read("file", file)) return false;
     const TextNode place = *reader.find("file");
     for (const char* field : {"degree_u", "degree_v", "points", "weights", "patches"}) {
         if (reader.has(field)) {
             reader.error(place,
                          "a patch_mesh has a file or '" + std::string(field) + "', not both");
-            return;
+            return false;
         }
     }
     try {
         const auto path = resolve_inside(context.roots, scope.folder, file);
         context.diagnostics.note_file(path);
-        std::vector<BptMesh> meshes =
-            read_bpt(read_file(path), path.string(), context.options, context.diagnostics);
+        const std::string bytes = read_file(path);
+        std::vector<BptMesh> meshes = read_bpt(without_byte_order_mark(bytes), path.string(),
+                                               context.options, context.diagnostics);
         if (meshes.size() > 1) {
             reader.error(place, file + " has patches of " + std::to_string(meshes.size()) +
                                     " pairs of degrees, a patch_mesh has one; 'alhazen convert' "
@@ -36,6 +38,7 @@ void read_native_patch_file(BlockReader& reader, NativeContext& context, const N
         reader.error(place, error.what());
     }
     context.count_elements(mesh->points.size(), where);
+    return !mesh->patches.empty();
 }
 
 }  // namespace alhazen

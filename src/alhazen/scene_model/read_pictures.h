@@ -1,0 +1,13 @@
+#pragma once
+/// Whether materials have pictures, which are looked up by texture coordinates.
+
+#include "alhazen/scene_model/scene_description.h"
+
+namespace alhazen {
+
+[[nodiscard]] bool reads_pictures(const SceneDescription& description, MaterialId material);
+/// The same of any material of a mesh: those of its vertices, without them `material`.
+[[nodiscard]] bool reads_pictures(const SceneDescription& description, MaterialId material,
+                                  const TriangleMesh& mesh);
+
+}  // namespace alhazen
