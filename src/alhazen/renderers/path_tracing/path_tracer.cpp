@@ -177,9 +177,12 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
     faces_.find(point, ray.direction, arrival, mask_of(path.kind));
     std::optional<Hit> met = faces_.opaque();
-    if (!met && faces_.sheet()) {
+    if (!met && faces_.instead()) {
         passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-        if (passed_.is_null_boundary()) met = faces_.sheet();
+        if (passed_.yields()) {
+            met = faces_.instead();
+            path.throughput = path.throughput * passed_.yielded();
+        }
     }
     if (!met) return stop(path, ray, hit, point, sum);
     set_shading_point(scene_, faces_.ray(), *met, arrival, {}, other_face_);
