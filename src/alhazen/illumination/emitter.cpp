@@ -16,7 +16,9 @@ namespace {
 /// inside: the cone of a nearer point would contain the point itself.
 constexpr double kOnSphere = 1e-9;
 /// From inside a unit sphere, smallest distance of a sampled point.
-constexpr double kNearOnSphere = 1e-7;
+double near_on_sphere(const Emitter& e) {
+    return std::max(1e-7, e.in_plane);
+}
 
 Vec3 corner_of(const Emitter& e) {
     return e.world_from_own.translation;
@@ -175,7 +177,7 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, Vec2 u) {
         own = on_own_sphere(u);
         const double b = dot(seen.from, own);
         t = -b + std::sqrt(std::max(0.0, b * b + 1.0 - seen.squared));
-        if (!(t > kNearOnSphere)) return {};
+        if (!(t > near_on_sphere(e))) return {};
     } else {
         const double d = std::sqrt(seen.squared);
         const Vec2 p = on_unit_disc(u);
@@ -198,7 +200,7 @@ double density_of_sphere(const Emitter& e, const Vec3& world_from, const Emitter
     if (from_behind != seen.inside && !seen.through) return 0.0;
     const Vec3 own = inverse(e.world_from_own.linear) * hit.direction;
     const double scale = 1.0 / length(own);
-    if (seen.inside && !(hit.distance > kNearOnSphere * scale)) return 0.0;
+    if (seen.inside && !(hit.distance > near_on_sphere(e) * scale)) return 0.0;
     return seen.density() * change_of_angle(e, scale);
 }
 
@@ -471,9 +473,17 @@ EmitterBounds bounds_of(const Emitter& e) {
     return bounds;
 }
 
-Ray leaving_ray(const Emitter& e, const EmitterPoint& p, const Vec3& direction) {
-    const double away = rounding_within(bounds_of(e).box);
-    return {p.point + (dot(direction, p.normal) < 0.0 ? -away : away) * p.normal, direction};
+double rounding_within(const Affine& world_from_frame, const Box3& box) {
+    const Affine inner = inverse(world_from_frame);
+    const auto times = [](const Mat3& m, const Vec3& v) {
+        return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
+    };
+    const Vec3 most{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
+                    std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
+                    std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
+    const Vec3 inside = times(inner.linear, most) + abs(inner.translation);
+    const Vec3 terms = times(world_from_frame.linear, inside) + abs(world_from_frame.translation);
+    return 0x1p-42 * max_component(terms);
 }
 
 }  // namespace alhazen
