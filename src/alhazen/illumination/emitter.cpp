@@ -56,7 +56,7 @@ EmitterSample seen_by_area(bool two_sided, const Vec3& from, const EmitterPoint&
     double cosine = -dot(to_light, p.normal);
     if (two_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0)) return {};
-    return {to_light, distance, p.density * squared / cosine, p.parameters};
+    return {to_light, distance, p.density * squared / cosine, p.parameters, cosine};
 }
 EmitterSample seen_by_area(const Emitter& e, const Vec3& from, const EmitterPoint& p) {
     return seen_by_area(e.two_sided, from, p);
@@ -101,7 +101,12 @@ EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u
             if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
             const Vec3 offset = seen.point(u);
             const double distance = length(offset);
-            return {offset / distance, distance, 1.0 / seen.solid_angle(), {}};
+            const Vec3 to_light = offset / distance;
+            return {to_light,
+                    distance,
+                    1.0 / seen.solid_angle(),
+                    {},
+                    std::abs(dot(to_light, axis_z(e)))};
         }
     }
     return seen_by_area(e, from, point_of(e, u));
@@ -191,7 +196,12 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, Vec2 u) {
     }
     const Vec3 direction = e.world_from_own.linear * own;
     const double scale = length(direction);
-    return {direction / scale, t * scale, seen.density() * change_of_angle(e, scale), {}};
+    const Vec3 to_light = direction / scale;
+    return {to_light,
+            t * scale,
+            seen.density() * change_of_angle(e, scale),
+            {},
+            std::abs(dot(to_light, outer_normal(e, seen.from + t * own)))};
 }
 
 double density_of_sphere(const Emitter& e, const Vec3& world_from, const EmitterHit& hit) {
@@ -324,7 +334,7 @@ EmitterSample sample_near(const EmittingTriangle& e, const Vec3& from, const Vec
     const double distance = height / slope;
     if (!(distance > 0.0) || !std::isfinite(distance)) return {};
     return {direction, distance, 1.0 / seen.solid_angle(),
-            weights_at(e.x, e.y, distance * direction - corner)};
+            weights_at(e.x, e.y, distance * direction - corner), std::abs(slope)};
 }
 
 EmitterSample sample(const Emitter& e, const Vec3& from, const Vec2& u) {

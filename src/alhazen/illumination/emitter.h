@@ -97,6 +97,7 @@ struct EmitterSample {
     double distance = 0;
     double density = 0;  ///< by solid angle; 0: no light arrives
     Vec2 parameters;     ///< weights of a triangle's second and third corner; (u, v) of a patch
+    double facing = 0;   ///< |cosine| at the emitter
 };
 /// Samples a point of the emitter as seen from `from`; `u` in [0, 1)^2.
 [[nodiscard]] EmitterSample sample(const Emitter& emitter, const Vec3& from, const Vec2& u);
@@ -148,10 +149,10 @@ struct EmitterBounds {
 [[nodiscard]] inline double rounding_within(const Box3& box) {
     return 0x1p-42 * std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
 }
-
 /// The same of the coordinates in a frame around the emitter, and of the way out of it. `box`: of
 /// the emitter in world space.
 [[nodiscard]] double rounding_within(const Affine& world_from_frame, const Box3& box);
+
 /// The ray that leaves a point of an emitter along a unit direction, `away` from the surface.
 [[nodiscard]] inline Ray leaving_ray(const EmitterPoint& p, const Vec3& direction, double away) {
     return {p.point + (dot(direction, p.normal) < 0.0 ? -away : away) * p.normal, direction};

@@ -268,6 +268,7 @@ LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probabil
     draw.distance = s.distance;
     draw.density = probability * s.density;
     if (light < emitters.size()) {
+        draw.facing = s.facing;
         draw.radiance =
             waves.emission(emitters.radiance(light, at, s.to_light, s.distance, s.parameters),
                            emitters[light].illuminant);

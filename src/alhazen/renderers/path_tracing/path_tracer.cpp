@@ -301,7 +301,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= weights_.of_shadow_ray(drawn.density, phase);
         const Ray to_light = ray_to_light(lights_, ray.origin, {ray.origin, drawn.to_light},
-                                          drawn.distance, drawn.place);
+                                          drawn.distance, drawn.place, drawn.facing);
         const Spectrum shown =
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
         Spectrum* const waiting = record_shadow(path, to_light, shown);
