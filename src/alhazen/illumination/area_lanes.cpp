@@ -76,6 +76,7 @@ HWY_INLINE void draw(std::uint32_t lanes, const LightCallLanes& calls, AreaLanes
     write(to_light.y, results.to_light[1]);
     write(to_light.z, results.to_light[2]);
     write(distance, results.distance);
+    write(cosine, results.facing);
     write(load_lanes<N>(n.probability) * density, results.density);
     for (int i = 0; i < Spectrum::kCount; ++i) {
         write(load_lanes<N>(n.radiance[i]), results.radiance[i]);

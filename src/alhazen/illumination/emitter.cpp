@@ -16,7 +16,9 @@ namespace {
 /// inside: the cone of a nearer point would contain the point itself.
 constexpr double kOnSphere = 1e-9;
 /// From inside a unit sphere, smallest distance of a sampled point.
-constexpr double kNearOnSphere = 1e-7;
+double near_on_sphere(const Emitter& e) {
+    return std::max(1e-7, e.in_plane);
+}
 
 Vec3 corner_of(const Emitter& e) {
     return e.world_from_own.translation;
@@ -54,7 +56,7 @@ EmitterSample seen_by_area(bool two_sided, const Vec3& from, const EmitterPoint&
     double cosine = -dot(to_light, p.normal);
     if (two_sided) cosine = std::abs(cosine);
     if (!(cosine > 0.0)) return {};
-    return {to_light, distance, p.density * squared / cosine, p.parameters};
+    return {to_light, distance, p.density * squared / cosine, p.parameters, cosine};
 }
 EmitterSample seen_by_area(const Emitter& e, const Vec3& from, const EmitterPoint& p) {
     return seen_by_area(e.two_sided, from, p);
@@ -99,7 +101,12 @@ EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u
             if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
             const Vec3 offset = seen.point(u);
             const double distance = length(offset);
-            return {offset / distance, distance, 1.0 / seen.solid_angle(), {}};
+            const Vec3 to_light = offset / distance;
+            return {to_light,
+                    distance,
+                    1.0 / seen.solid_angle(),
+                    {},
+                    std::abs(dot(to_light, axis_z(e)))};
         }
     }
     return seen_by_area(e, from, point_of(e, u));
@@ -175,7 +182,7 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, Vec2 u) {
         own = on_own_sphere(u);
         const double b = dot(seen.from, own);
         t = -b + std::sqrt(std::max(0.0, b * b + 1.0 - seen.squared));
-        if (!(t > kNearOnSphere)) return {};
+        if (!(t > near_on_sphere(e))) return {};
     } else {
         const double d = std::sqrt(seen.squared);
         const Vec2 p = on_unit_disc(u);
@@ -189,7 +196,12 @@ EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, Vec2 u) {
     }
     const Vec3 direction = e.world_from_own.linear * own;
     const double scale = length(direction);
-    return {direction / scale, t * scale, seen.density() * change_of_angle(e, scale), {}};
+    const Vec3 to_light = direction / scale;
+    return {to_light,
+            t * scale,
+            seen.density() * change_of_angle(e, scale),
+            {},
+            std::abs(dot(to_light, outer_normal(e, seen.from + t * own)))};
 }
 
 double density_of_sphere(const Emitter& e, const Vec3& world_from, const EmitterHit& hit) {
@@ -198,7 +210,7 @@ double density_of_sphere(const Emitter& e, const Vec3& world_from, const Emitter
     if (from_behind != seen.inside && !seen.through) return 0.0;
     const Vec3 own = inverse(e.world_from_own.linear) * hit.direction;
     const double scale = 1.0 / length(own);
-    if (seen.inside && !(hit.distance > kNearOnSphere * scale)) return 0.0;
+    if (seen.inside && !(hit.distance > near_on_sphere(e) * scale)) return 0.0;
     return seen.density() * change_of_angle(e, scale);
 }
 
@@ -322,7 +334,7 @@ EmitterSample sample_near(const EmittingTriangle& e, const Vec3& from, const Vec
     const double distance = height / slope;
     if (!(distance > 0.0) || !std::isfinite(distance)) return {};
     return {direction, distance, 1.0 / seen.solid_angle(),
-            weights_at(e.x, e.y, distance * direction - corner)};
+            weights_at(e.x, e.y, distance * direction - corner), std::abs(slope)};
 }
 
 EmitterSample sample(const Emitter& e, const Vec3& from, const Vec2& u) {
@@ -471,9 +483,17 @@ EmitterBounds bounds_of(const Emitter& e) {
     return bounds;
 }
 
-Ray leaving_ray(const Emitter& e, const EmitterPoint& p, const Vec3& direction) {
-    const double away = rounding_within(bounds_of(e).box);
-    return {p.point + (dot(direction, p.normal) < 0.0 ? -away : away) * p.normal, direction};
+double rounding_within(const Affine& world_from_frame, const Box3& box) {
+    const Affine inner = inverse(world_from_frame);
+    const auto times = [](const Mat3& m, const Vec3& v) {
+        return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
+    };
+    const Vec3 most{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
+                    std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
+                    std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
+    const Vec3 inside = times(inner.linear, most) + abs(inner.translation);
+    const Vec3 terms = times(world_from_frame.linear, inside) + abs(world_from_frame.translation);
+    return 0x1p-42 * max_component(terms);
 }
 
 }  // namespace alhazen

@@ -67,7 +67,8 @@ struct alignas(64) Emitter {
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
     /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
     double far_squared = std::numeric_limits<double>::infinity();
-    /// The same forms: nearer to its plane a point may lie in it, but for rounding.
+    /// The same forms: nearer to its plane a point may lie in it, but for rounding. Sphere: as
+    /// near to a point of it, in its own frame.
     double in_plane = -1;
     Affine world_from_own;
     Rgb radiance;      ///< mean over the surface
@@ -96,6 +97,7 @@ struct EmitterSample {
     double distance = 0;
     double density = 0;  ///< by solid angle; 0: no light arrives
     Vec2 parameters;     ///< weights of a triangle's second and third corner; (u, v) of a patch
+    double facing = 0;   ///< |cosine| at the emitter
 };
 /// Samples a point of the emitter as seen from `from`; `u` in [0, 1)^2.
 [[nodiscard]] EmitterSample sample(const Emitter& emitter, const Vec3& from, const Vec2& u);
@@ -147,8 +149,13 @@ struct EmitterBounds {
 [[nodiscard]] inline double rounding_within(const Box3& box) {
     return 0x1p-42 * std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
 }
+/// The same of the coordinates in a frame around the emitter, and of the way out of it. `box`: of
+/// the emitter in world space.
+[[nodiscard]] double rounding_within(const Affine& world_from_frame, const Box3& box);
 
-/// The ray that leaves a point of an emitter along a unit direction, outside of that bound.
-[[nodiscard]] Ray leaving_ray(const Emitter& emitter, const EmitterPoint& p, const Vec3& direction);
+/// The ray that leaves a point of an emitter along a unit direction, `away` from the surface.
+[[nodiscard]] inline Ray leaving_ray(const EmitterPoint& p, const Vec3& direction, double away) {
+    return {p.point + (dot(direction, p.normal) < 0.0 ? -away : away) * p.normal, direction};
+}
 
 }  // namespace alhazen

@@ -35,13 +35,20 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
     if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
     has_unsampled_ |= emitters_.capacity() >= kMostEmitters;
-    expand(*scene.aggregate, {}, kAllRays);
+    expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         if (!make_ready(emitters_[i])) {
             // A polygon whose corners are off its plane shines, and is met by chance.
             has_unsampled_ |= emitters_[i].form == EmitterForm::Polygon;
             emitters_[i].area = 0.0;
-        } else if (varying_[i]) {
+            continue;
+        }
+        if (emitters_[i].form == EmitterForm::Sphere) {
+            const Mat3 own = inverse(emitters_[i].world_from_own.linear);
+            emitters_[i].in_plane =
+                rounding(i) * (length(own.x_axis) + length(own.y_axis) + length(own.z_axis));
+        }
+        if (varying_[i]) {
             emitters_[i].radiance = mean_radiance(i);
             if (!emitters_[i].radiance.is_finite()) emitters_[i].area = 0.0;
         }
@@ -123,8 +130,7 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     return tables_.emplace(&aggregate, std::move(result)).first->second;
 }
 
-void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_table,
-                         RayMask seen_by) {
+void EmitterList::expand(const Aggregate& aggregate, const Holder& holder) {
     const PrimitiveTable& table = aggregate.primitives();
     const Table& counted = tables_.at(&aggregate);
     for (std::size_t k = 0; k < counted.primitives.size(); ++k) {
@@ -137,10 +143,11 @@ void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_ta
         if (emitters_.size() >= kMostEmitters) return;
         if (table.kind(id) == kInstanceKind) {
             const Instance& instance = table.instances[table.index(id)];
-            expand(*instance.aggregate, world_from_table * instance.placement.outer_from_inner,
-                   seen_by & table.visible_to(id));
+            Holder inner{holder.frames, holder.seen_by & table.visible_to(id)};
+            inner.frames.push_back(holder.world_from_table() * instance.placement.outer_from_inner);
+            expand(*instance.aggregate, inner);
         } else {
-            expand_primitive(table, id, world_from_table, seen_by & table.visible_to(id));
+            expand_primitive(table, id, holder);
         }
     }
 }
@@ -154,10 +161,36 @@ void EmitterList::join_half(const PrimitiveTable& table, PrimitiveId first, Prim
     e.illuminant = half.illuminant;
 }
 
+void EmitterList::set_rounding(const PrimitiveTable& table, PrimitiveId id, const Holder& holder,
+                               std::size_t first) {
+    rounding_in_frames_.resize(emitters_.size());
+    const std::uint32_t kind = table.kind(id);
+    const Placement* own = nullptr;
+    if (kind != kTriangleKind) {
+        with_column(table.columns, kind, [&](const auto& column) {
+            const std::uint32_t placement = column.placements[table.index(id)];
+            if (placement != kNoPlacement) own = &table.placements[placement];
+        });
+    }
+    for (std::size_t i = first; i < emitters_.size(); ++i) {
+        const Box3 box = bounds_of(emitters_[i]).box;
+        double& most = rounding_in_frames_[i];
+        for (const Affine& frame : holder.frames) {
+            most = std::max(most, rounding_within(frame, box));
+        }
+        if (own != nullptr) {
+            most = std::max(
+                most, rounding_within(holder.world_from_table() * own->outer_from_inner, box));
+        }
+    }
+}
+
 void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
-                                   const Affine& world_from_table, RayMask seen_by) {
+                                   const Holder& holder) {
+    const RayMask seen_by = holder.seen_by & table.visible_to(id);
     const std::size_t first = emitters_.size();
-    append_emitters_of_shape(table, id, world_from_table, emitters_);
+    append_emitters_of_shape(table, id, holder.world_from_table(), emitters_);
+    set_rounding(table, id, holder, first);
     MaterialId material{};
     bool of_vertices = false;
     if (table.kind(id) == kTriangleKind) {
@@ -297,7 +330,7 @@ EmitterList::Start EmitterList::start(std::size_t emitter, const EmitterPoint& p
     const Ray ray{p.point + away * normal, -normal};
     const std::optional<Hit> hit = hit_of(emitter, ray, away, p.parameters);
     // By rounding the point may be beside the edge.
-    if (!hit) return {leaving_ray(e, p, direction), e.radiance};
+    if (!hit) return {leaving_ray(p, direction, rounding(emitter)), e.radiance};
     Surface surface;
     const bool varies = varying_[emitter];
     set_surface(*scene_.aggregate, ray, *hit,

@@ -12,6 +12,7 @@
 /// Complexity: O(primitives); a lookup O(depth). Threads: const functions may be
 /// called from many.
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -23,7 +24,7 @@
 
 namespace alhazen {
 
-/// Largest number of emitters that are sampled; each takes 320 bytes, and 128 more (area_lanes.h).
+/// Largest number of emitters that are sampled; each takes 328 bytes, and 128 more (area_lanes.h).
 inline constexpr std::size_t kMostEmitters = std::size_t{1} << 22;
 
 class EmitterList {
@@ -38,6 +39,11 @@ class EmitterList {
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none if it is not included.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
+    /// A bound of the rounding of the points of an emitter, in world space and in the frames that
+    /// hold it, and of the tests that find them, times the margin of LeavingRays.
+    [[nodiscard]] double rounding(std::size_t i) const {
+        return std::max(rounding_within(bounds_of(emitters_[i]).box), rounding_in_frames_[i]);
+    }
     /// The radiance of an emitter along a ray from `from` with unit `direction` that hits it at
     /// `distance`.
     [[nodiscard]] Rgb radiance(std::size_t emitter, const Vec3& from, const Vec3& direction,
@@ -74,10 +80,22 @@ class EmitterList {
     };
 
     const Table& count(const Aggregate& aggregate);
-    /// Appends the emitters of an aggregate. `seen_by`: the rays that see what holds it.
-    void expand(const Aggregate& aggregate, const Affine& world_from_table, RayMask seen_by);
-    void expand_primitive(const PrimitiveTable& table, PrimitiveId id,
-                          const Affine& world_from_table, RayMask seen_by);
+    /// What holds a table: `frames` are its own and those around it, outermost first, without that
+    /// of the world; `seen_by`: the rays that see it.
+    struct Holder {
+        std::vector<Affine> frames;
+        RayMask seen_by = kAllRays;
+
+        [[nodiscard]] Affine world_from_table() const {
+            return frames.empty() ? Affine{} : frames.back();
+        }
+    };
+    /// Appends the emitters of an aggregate.
+    void expand(const Aggregate& aggregate, const Holder& holder);
+    void expand_primitive(const PrimitiveTable& table, PrimitiveId id, const Holder& holder);
+    /// Sets `rounding_in_frames_` of the emitters from `first` on, those of a primitive.
+    void set_rounding(const PrimitiveTable& table, PrimitiveId id, const Holder& holder,
+                      std::size_t first);
     /// Replaces the last emitter, the first half of a rectangle, by the whole rectangle.
     void join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second);
     [[nodiscard]] bool emits(const Material& material) const;
@@ -95,7 +113,8 @@ class EmitterList {
     std::map<const Aggregate*, Table> tables_;
     bool may_shine_ = false, has_unsampled_ = false;
     std::vector<Emitter> emitters_;
-    std::vector<bool> varying_;  ///< [emitter] its radiance is not constant
+    std::vector<bool> varying_;               ///< [emitter] its radiance is not constant
+    std::vector<double> rounding_in_frames_;  ///< [emitter] but for world space
 };
 
 }  // namespace alhazen

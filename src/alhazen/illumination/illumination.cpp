@@ -121,7 +121,7 @@ void Illumination::Data::set_choices() {
         const TreeLight light = tree_light(i);
         intensity += light.intensity;
         if (i < emitters.size() && light.intensity > 0.0) {
-            rounding = std::max(rounding, rounding_within(light.bounds.box));
+            rounding = std::max(rounding, emitters.rounding(i));
         }
         near_weights.push_back(options.choice != LightChoice::Uniform ? light.intensity
                                : light.intensity > 0.0                ? 1.0
@@ -268,6 +268,7 @@ LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probabil
     draw.distance = s.distance;
     draw.density = probability * s.density;
     if (light < emitters.size()) {
+        draw.facing = s.facing;
         draw.radiance =
             waves.emission(emitters.radiance(light, at, s.to_light, s.distance, s.parameters),
                            emitters[light].illuminant);

@@ -39,6 +39,7 @@ struct LightDraw {
                             ///< 0: no light arrives
     bool singular = false;  ///< no other strategy finds this light
     PlaceInLight place;
+    double facing = 0;  ///< |cosine| at the surface that rays meet at the light; 0: none
 };
 
 /// A ray of light that leaves its source. Its power is radiance * cosine / (both densities).

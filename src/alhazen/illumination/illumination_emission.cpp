@@ -170,9 +170,10 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     out.place_density = chosen.probability * p.density;
     out.is_hit = chosen.light < d.emitters.size();
     out.direction_density = cosine / (e.two_sided ? 2.0 * kPi : kPi);
-    const EmitterList::Start start = out.is_hit
-                                         ? d.emitters.start(chosen.light, p, along)
-                                         : EmitterList::Start{leaving_ray(e, p, along), e.radiance};
+    const EmitterList::Start start =
+        out.is_hit ? d.emitters.start(chosen.light, p, along)
+                   : EmitterList::Start{leaving_ray(p, along, rounding_within(bounds_of(e).box)),
+                                        e.radiance};
     out.ray = start.ray;
     out.radiance = waves.emission(start.radiance, e.illuminant);
     return out;

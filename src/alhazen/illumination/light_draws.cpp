@@ -200,7 +200,8 @@ std::uint32_t LightDraws::draw_near_flat(std::uint32_t lanes, const ChosenLight*
                     .distance = s.distance,
                     .radiance = radiance,
                     .density = probability * s.density,
-                    .place = {light, s.parameters}};
+                    .place = {light, s.parameters},
+                    .facing = s.facing};
         }
         results_.set(lane, draw);
     });

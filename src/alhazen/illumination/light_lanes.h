@@ -33,7 +33,7 @@ struct LightDrawLanes {
     using Numbers = double[kMost];  ///< [lane]
 
     alignas(64) Numbers to_light[3] = {};
-    alignas(64) Numbers distance = {}, density = {};
+    alignas(64) Numbers distance = {}, density = {}, facing = {};
     alignas(64) Numbers radiance[Spectrum::kCount] = {};
     std::uint32_t singular = 0;  ///< bits of lanes
     std::array<PlaceInLight, kMost> places;
@@ -42,6 +42,7 @@ struct LightDrawLanes {
         for (int k = 0; k < 3; ++k) to_light[k][lane] = draw.to_light[k];
         distance[lane] = draw.distance;
         density[lane] = draw.density;
+        facing[lane] = draw.facing;
         for (int k = 0; k < Spectrum::kCount; ++k) radiance[k][lane] = draw.radiance[k];
         const std::uint32_t bit = 1u << lane;
         singular = draw.singular ? singular | bit : singular & ~bit;
@@ -54,7 +55,8 @@ struct LightDrawLanes {
                              radiance[3][lane]},
                 .density = density[lane],
                 .singular = (singular >> lane & 1u) != 0,
-                .place = places[lane]};
+                .place = places[lane],
+                .facing = facing[lane]};
     }
 };
 

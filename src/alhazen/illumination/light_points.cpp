@@ -47,7 +47,7 @@ Vec3 Illumination::before_surface(const PlaceInLight& place, const Vec3& point,
     if (place.source >= d.emitters.size()) return point;
     const Emitter& e = d.emitters[place.source];
     const Vec3 normal = normal_at(e, point, place.parameters);
-    const double away = rounding_within(bounds_of(e).box);
+    const double away = d.emitters.rounding(place.source);
     return point + (dot(from - point, normal) < 0.0 ? -away : away) * normal;
 }
 

@@ -106,6 +106,7 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
     write(to_light.y, results.to_light[1]);
     write(to_light.z, results.to_light[2]);
     write(distance, results.distance);
+    write(abs(dot(to_light, load_vectors<N>(n.normal))), results.facing);
     write(load_lanes<N>(n.probability) * density, results.density);
     store_lanes(density, n.density);
     for (int i = 0; i < Spectrum::kCount; ++i) {
@@ -200,7 +201,8 @@ EmitterSample RectangleLanes::sampled(std::size_t lane, const LightCallLanes& ca
     return {{r.to_light[0][lane], r.to_light[1][lane], r.to_light[2][lane]},
             r.distance[lane],
             numbers_.density[lane],
-            {}};
+            {},
+            r.facing[lane]};
 }
 
 }  // namespace alhazen

@@ -71,6 +71,32 @@ void expect_same_far(const char* name, const Fill& fill, const std::vector<std::
     }
 }
 
+/// A lamp around `at` + (0, 0, 2) in a frame that moves `at` to the origin: 0: a tube, 1: a patch,
+/// 2: a ball.
+void add_moved_lamp(SceneMaker& m, int kind, const Vec3& at, bool instanced) {
+    const MaterialId light = m.material(shining({4, 4, 4}));
+    const ObjectIndex owner = instanced ? m.object("lamp") : ObjectIndex{0};
+    const Affine back = Affine::translate(-at), own = instanced ? Affine{} : back;
+    if (kind == 0) {
+        Cylinder tube;
+        tube.base = at + Vec3{-0.5, 0, 2};
+        tube.top = at + Vec3{0.5, 0.25, 2.25};
+        tube.radius = 0.25;
+        m.add(tube, light, own, owner);
+    } else if (kind == 1) {
+        BezierPatch patch;
+        for (int i = 0; i < 16; ++i) {
+            const int u = i / 4, v = i % 4;
+            patch.points.push_back(at +
+                                   Vec3{u / 4.0, v / 4.0, 2.0 + (u % 3 == 0 ? v % 2 : 0) / 4.0});
+        }
+        m.add(patch, light, own, owner);
+    } else {
+        m.add(ball(at + Vec3{0, 0, 2}, 0.25), light, own, owner);
+    }
+    if (instanced) m.add(owner, light, back);
+}
+
 TEST(FarLights, EmittingSurfacesDoNotShadeThemselves) {
     const struct {
         const char* name;
@@ -122,6 +148,29 @@ TEST(FarLights, FogIsLitBySeenLamps) {
             m.add(ball(at + Vec3{0, 0, 0.75}, 0.5), m.material(fog({0.25, 0.25, 0.25}, {2, 2, 2})));
         },
         {"path_tracing:depth=2", "bidirectional:depth=2"}, 1e-3);
+}
+
+// The lamp's own coordinates are large, in the scene it is near the origin.
+TEST(FarLights, LampsThatAreMovedBackFromAfarDoNotShadeThemselves) {
+    const auto seen = [](const char* renderer, double away, bool instanced, int kind) {
+        const Vec3 at{away, away, away};
+        return mean_of(picture_of(corner_at({},
+                                            [&](SceneMaker& m, const Vec3&) {
+                                                add_moved_lamp(m, kind, at, instanced);
+                                            }),
+                                  renderer, 4, 16))
+            .g;
+    };
+    for (const bool instanced : {false, true}) {
+        for (const int kind : {0, 1, 2}) {
+            for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
+                const double expected = seen(renderer, 0, instanced, kind);
+                EXPECT_GT(expected, 0.01) << renderer;
+                EXPECT_NEAR(seen(renderer, 0x1p30, instanced, kind), expected, 1e-4 * expected)
+                    << renderer << " " << kind << " " << instanced;
+            }
+        }
+    }
 }
 
 TEST(FarLights, WhatCoversALampBlocksIt) {

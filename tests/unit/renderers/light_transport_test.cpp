@@ -276,6 +276,39 @@ TEST(LightTransport, ALampJustOverAFloorHidesItFromTheLens) {
     }
 }
 
+/// A floor, a wall and a lamp; a sheet that halves the light at `sheet`, over all of its plane.
+Scene room_with_sheet(double sheet) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        look_along({0, -4, 1.5}, {0, 4, -1.25}, {0, 0, 1}, 0.4, 1.0);
+    const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
+    maker.add(rectangle({-2.5, -2.5, 0}, {5, 0, 0}, {0, 5, 0}), white);
+    maker.add(rectangle({-2.5, 1.5, 0}, {5, 0, 0}, {0, 0, 4}), white);
+    maker.add(rectangle({-0.5, -0.5, 1}, {1, 0, 0}, {0, 1, 0}), maker.material(shining({4, 4, 4})));
+    Material half = testing::smooth_glass();
+    half.metallic_roughness->thickness.value = 0;
+    half.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};
+    half.index.value = 1.0;
+    maker.add(rectangle({-2.5, -2.5, sheet}, {5, 0, 0}, {0, 5, 0}), maker.material(half));
+    return maker.compile();
+}
+
+// Connections end before the lamp and the floor, but not before the sheets just below and above.
+TEST(LightTransport, ASheetCloseToALampOrAFloorIsMet) {
+    for (const char* renderer :
+         {"path_tracing", "path_tracing --spectral", "bidirectional", "vcm:photons=200",
+          "photon_mapping:photons=200,gather=2", "sppm:photons=200"}) {
+        const auto seen_with = [&](double sheet) {
+            return mean_of(picture_of(room_with_sheet(sheet), renderer, 4, 64)).g;
+        };
+        const double below_lamp = seen_with(1.0 - 1e-4), above_floor = seen_with(1e-4);
+        for (const double gap : {1e-9, 1e-11}) {
+            EXPECT_NEAR(seen_with(1.0 - gap), below_lamp, 2e-3 * below_lamp) << renderer;
+            EXPECT_NEAR(seen_with(gap), above_floor, 2e-3 * above_floor) << renderer;
+        }
+    }
+}
+
 // The rays from the lens end before the floor that they connect to, also where they graze it.
 TEST(LightTransport, AFarLensSeesAFloorFromASmallAngle) {
     for (const double slope : {1.0, 1e-1, 1e-2}) {

@@ -37,6 +37,10 @@ TEST(Photon, DirectionsAreKeptWithinATenThousandthOfARadian) {
     }
 }
 
+OctahedralVector even_normal(std::size_t number) {
+    return OctahedralVector({0, number % 2 == 0 ? 1.0 : -1.0, 0});
+}
+
 std::vector<Photon> random_photons(std::size_t count, bool lattice, std::uint64_t seed) {
     RandomStream random(seed);
     std::vector<Photon> photons(count);
@@ -45,6 +49,7 @@ std::vector<Photon> random_photons(std::size_t count, bool lattice, std::uint64_
             x = lattice ? static_cast<double>(random.below(5)) : random.uniform(-1, 1);
         }
         photons[i].power[0] = static_cast<float>(i);
+        photons[i].normal = even_normal(i);
     }
     return photons;
 }
@@ -88,7 +93,7 @@ TEST(PhotonTree, FindsTheNearestOfBruteForce) {
                 if (lattice) p = {2, 1, double(random.below(5))};
                 const std::size_t most = 1 + random.below(20);
                 const double squared = trial % 3 == 0 ? kInfinity : random.uniform(0, 1);
-                const auto even = [](const Photon& q) { return int(q.power[0]) % 2 == 0; };
+                const auto even = [](const Photon& q) { return q.normal == even_normal(0); };
                 std::vector<PhotonTree::Near> found, all;
                 tree.nearest(p, most, squared, even, found);
                 for (std::uint32_t i = 0; i < count; ++i) {
@@ -136,6 +141,59 @@ TEST(PhotonTree, ASearchVisitsFewOfManyCoincidentPhotons) {
     }
     // Six searches; in each some paths of 17 levels.
     EXPECT_LT(visited, 6 * 17 * 8 * kNearest);
+}
+
+struct CountVisits {
+    std::size_t visits = 0;
+    void visit() { ++visits; }
+};
+
+// Photons at a point, along a line and in a square, of sizes down to the rounding, are seen from
+// beside them along each axis and slantwise, from surfaces of both sides.
+TEST(PhotonTree, ASearchFromBesideAClusterVisitsFewOfItsPhotons) {
+    constexpr std::size_t kCount = 60000, kNearest = 20;
+    RandomStream random(7);
+    for (const double size : {0.0, 1e-15, 1e-9, 1e-3}) {
+        for (int dimensions = size > 0.0 ? 1 : 0; dimensions < (size > 0.0 ? 3 : 1); ++dimensions) {
+            std::vector<Photon> photons = random_photons(kCount, false, 8);
+            for (std::size_t i = 0; i < kCount; ++i) {
+                photons[i].normal = even_normal(0);
+                if (i % 8 == 0) continue;
+                photons[i].position = {0.25, 0.5, 0.75};
+                for (int k = 0; k < dimensions; ++k) {
+                    photons[i].position[static_cast<std::size_t>(k)] +=
+                        size * random.uniform(-1, 1);
+                }
+            }
+            const PhotonTree tree(photons);
+            for (const Vec3& apart : {Vec3{0, 0, 0}, Vec3{1e-3, 0, 0}, Vec3{0, 1e-3, 0},
+                                      Vec3{0, 0, 1e-3}, Vec3{1e-3, 1e-3, 1e-3}}) {
+                const Vec3 p = Vec3{0.25, 0.5, 0.75} + apart;
+                std::vector<PhotonTree::Near> found, all;
+                CountVisits one, other;
+                const auto fits = [](const Photon& q) { return q.normal == even_normal(0); };
+                tree.nearest(p, kNearest, kInfinity, fits, found, one);
+                for (std::uint32_t i = 0; i < kCount; ++i) {
+                    all.push_back({length_squared(tree.photons()[i].point() - p), i});
+                }
+                std::partial_sort(all.begin(), all.begin() + kNearest, all.end());
+                all.resize(kNearest);
+                std::sort(found.begin(), found.end());
+                EXPECT_EQ(found, all) << size << " " << dimensions;
+                tree.nearest(p, kNearest, kInfinity, 0.0, fits, found, other);
+                std::sort(found.begin(), found.end());
+                EXPECT_EQ(found, all) << size << " " << dimensions;
+                // Paths of 16 levels.
+                EXPECT_LT(one.visits, 16 * 8 * kNearest) << size << " " << dimensions;
+                EXPECT_LT(other.visits, 16 * 8 * kNearest) << size << " " << dimensions;
+                const auto misfits = [](const Photon& q) { return q.normal == even_normal(1); };
+                tree.nearest(p, kNearest, kInfinity, misfits, found, one);
+                tree.nearest(p, kNearest, kInfinity, 0.0, misfits, found, other);
+                EXPECT_TRUE(found.empty());
+                EXPECT_LT(one.visits + other.visits, 2 * 16 * 8 * kNearest);
+            }
+        }
+    }
 }
 
 TEST(PhotonDensity, IrradianceAtPhotonsEndsAfterAStop) {

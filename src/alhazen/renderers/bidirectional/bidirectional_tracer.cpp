@@ -203,7 +203,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     FreeFlight flight;
     const Spectrum passing =
         joins_.passing(ray_to_light(lights_, v.point(), v.leaving(drawn.to_light, drawn.distance),
-                                    drawn.distance, drawn.place),
+                                    drawn.distance, drawn.place, drawn.facing),
                        time, v.media_along(drawn.to_light, behind_), waves_, &flight);
     if (passing.is_black()) return;
     LightEnd end;
@@ -238,7 +238,7 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     if ((y.seen_by & mask_of(kind)) == 0) return;
     FreeFlight flight;
     const Ray ray = ray_between(z.point(), z.leaving(to_y, distance), y.point(),
-                                y.leaving(to_z, distance), distance);
+                                y.leaving(to_z, distance), distance, y.facing(to_z));
     const Spectrum passing =
         joins_.between(ray, time, kind, z.media_along(to_y, behind_), waves_, &flight);
     if (passing.is_black()) return;

@@ -1,8 +1,6 @@
 #pragma once
 /// Rays that connect light paths to the lens.
 
-#include <algorithm>
-
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/connecting_rays.h"
@@ -14,14 +12,10 @@ namespace alhazen {
 /// the error bound of the surface. That contains the rounding of tests of rays from near it: the
 /// ray ends earlier by what those from the lens round more.
 [[nodiscard]] inline Ray from_lens(const PathVertex& v, const LensConnection& joined) {
-    /// Relative to the coordinates of the origin and the length: that of patches, which is largest
-    /// (docs/design/secondary_rays.md), four times.
-    constexpr double kRounding = 0x1p-42;
     const Ray back = v.leaving(joined.to_lens, joined.distance);
     Ray ray{back.at(joined.distance), -joined.to_lens};
-    const double off = kRounding * (max_component(abs(ray.origin)) + joined.distance);
-    ray.t_max =
-        std::max(joined.distance - off / v.facing(joined.to_lens), kBeforeEnd * joined.distance);
+    const double off = rounding_of_tests(ray.origin, joined.distance);
+    ray.t_max = end_before(joined.distance, off, v.facing(joined.to_lens));
     return ray;
 }
 

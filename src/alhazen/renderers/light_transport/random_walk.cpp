@@ -86,11 +86,12 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
                                   point_);
-            } else if (faces_.sheet()) {
+            } else if (faces_.instead()) {
                 opening_.set(scene_, point_, front.media, front.waves, false, &bsdfs_,
                              &faces_.others());
-                if (opening_.is_null_boundary()) {
-                    hit_ = *faces_.sheet();
+                if (opening_.yields()) {
+                    hit_ = *faces_.instead();
+                    front.throughput = front.throughput * opening_.yielded();
                     set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
                                       point_);
                     faces_.find(point_, ray.direction, arrival, mask());

@@ -102,9 +102,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     enters_volume_ = enters_volume(point);
     is_wall_ = is_wall(surface);
     media_known_ = point.behind.known;
-    if (thin_ && !others_.empty() && !(eta_of_faces(scene, media, waves) == Spectrum::all(1))) {
-        others_.clear();
-    }
+    const bool refracts_at_sheet =
+        thin_ && !others_.empty() && !(eta_of_faces(scene, media, waves) == Spectrum::all(1));
+    if (refracts_at_sheet) others_.clear();
     const Spectrum all = etas(scene, point, media, waves);
     if (point.coat_is_tilted) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
@@ -124,6 +124,8 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
             material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
             bsdf().refracts_alone() && may_be_null_boundary(scene, surface);
+    yields_ = refracts_at_sheet && !bsdf().has_density() && !coat_ &&
+              material.emission.is_black() && !material.unlit;
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
@@ -136,6 +138,17 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     } else {
         make_bsdf(scene, surface, place, from_behind_.emplace());
     }
+}
+
+Spectrum ScatterPoint::yielded() const {
+    if (null_) return Spectrum::all(1);
+    const Spectrum passed = straight();
+    const Spectrum reflected = bsdf().singular(local_view_, Transport::Radiance).reflected;
+    Spectrum left;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        if (reflected[i] < 1.0) left[i] = std::min(1.0, passed[i] / (1.0 - reflected[i]));
+    }
+    return left;
 }
 
 Spectrum ScatterPoint::eta_of_faces(const Scene& scene, const MediumStack& media,

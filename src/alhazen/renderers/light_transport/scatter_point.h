@@ -79,6 +79,13 @@ class ScatterPoint {
     [[nodiscard]] std::optional<std::array<Scattered, 2>> both_ways(Transport transport) const;
 
     [[nodiscard]] bool is_null_boundary() const { return null_; }
+    /// True if the other kind of surface at the place, thin sheet or boundary, is met instead
+    /// (CoincidentFaces::instead): of a null boundary, and of a smooth sheet that does not emit at
+    /// a boundary that refracts.
+    [[nodiscard]] bool yields() const { return null_ || yields_; }
+    /// What is left of the light of a path where the surface yields: of a sheet what it passes of
+    /// the light that it does not reflect, since the boundary reflects instead.
+    [[nodiscard]] Spectrum yielded() const;
     /// The straight transmittance of a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
         return null_ ? bsdf().singular(local_view_, Transport::Radiance).transmitted
@@ -177,7 +184,7 @@ class ScatterPoint {
     Medium inside_;  ///< of the volume that the surface bounds
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
-    bool null_ = false;
+    bool null_ = false, yields_ = false;
     bool media_known_ = false;  ///< the media are stated by a solid
     bool enters_volume_ = true, is_wall_ = false;
 };

@@ -311,7 +311,8 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     for (int i = 0; i < chain_.length(); ++i) {
         const ChainVertex& v = chain_.at[static_cast<std::size_t>(i)];
         const Ray ray = ray_between(from->point, leaving_ray(*from, direction), v.surface.point,
-                                    leaving_ray(v.surface, -direction), v.travelled);
+                                    leaving_ray(v.surface, -direction), v.travelled,
+                                    std::abs(dot(v.surface.normal, direction)));
         if (!pass(media, ray)) return {};
         from = &v.surface;
         direction = v.leaving;
@@ -325,8 +326,9 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
         end_.infinite ? std::numeric_limits<double>::infinity() : length(end_.at - from->point);
     // Rays along the chain find the light if they can hit it.
     if (!pick_.is_hit) ray_kind = RayKind::Shadow;
+    const double facing = pick_.is_hit ? std::abs(dot(pick_.normal, direction)) : 0.0;
     const Ray ray = ray_to_light(manifold_.lights, from->point, leaving_ray(*from, direction), rest,
-                                 pick_.place);
+                                 pick_.place, facing);
     if (!pass(last, ray)) return {};
     return share;
 }

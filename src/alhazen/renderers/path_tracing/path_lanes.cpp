@@ -117,7 +117,8 @@ void PathTracer::scatter_lanes() {
         const EyePath& path = *of_lanes_[lane].path;
         const double distance = lights.distance[lane];
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
-                         LeavingRays::kBeyondZero, kBeforeEnd * distance};
+                         LeavingRays::kBeyondZero,
+                         end_before(distance, most_beside_, lights.facing[lane])};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
         if (most_beside_ > kMostBeside * distance) [[unlikely]] {
             return add_beside(lane, shadow, shown);
@@ -134,7 +135,7 @@ void PathTracer::add_beside(std::size_t lane, const Ray& shadow, const Spectrum&
     const EyePath& path = *of_lanes_[lane].path;
     const LightDrawLanes& lights = draws_.results();
     const Ray aimed = ray_to_light(lights_, vector_of(lanes_.triangles.point, lane), shadow,
-                                   lights.distance[lane], lights.places[lane]);
+                                   lights.distance[lane], lights.places[lane], lights.facing[lane]);
     shadows_.add_outside(aimed, path.time, shown, light_[path.sample]);
 }
 

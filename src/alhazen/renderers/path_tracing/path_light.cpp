@@ -148,7 +148,7 @@ void PathTracer::add_direct_light(const Vertex& vertex, const LightDraw& drawn, 
     }
     const Ray shadow =
         ray_to_light(lights_, vertex.place, vertex.leaving->along(drawn.to_light, drawn.distance),
-                     drawn.distance, drawn.place);
+                     drawn.distance, drawn.place, drawn.facing);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);
     Spectrum& to = waiting != nullptr ? *waiting

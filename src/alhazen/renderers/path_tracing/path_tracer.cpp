@@ -177,9 +177,12 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
     faces_.find(point, ray.direction, arrival, mask_of(path.kind));
     std::optional<Hit> met = faces_.opaque();
-    if (!met && faces_.sheet()) {
+    if (!met && faces_.instead()) {
         passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-        if (passed_.is_null_boundary()) met = faces_.sheet();
+        if (passed_.yields()) {
+            met = faces_.instead();
+            path.throughput = path.throughput * passed_.yielded();
+        }
     }
     if (!met) return stop(path, ray, hit, point, sum);
     set_shading_point(scene_, faces_.ray(), *met, arrival, {}, other_face_);
@@ -298,7 +301,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= weights_.of_shadow_ray(drawn.density, phase);
         const Ray to_light = ray_to_light(lights_, ray.origin, {ray.origin, drawn.to_light},
-                                          drawn.distance, drawn.place);
+                                          drawn.distance, drawn.place, drawn.facing);
         const Spectrum shown =
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
         Spectrum* const waiting = record_shadow(path, to_light, shown);

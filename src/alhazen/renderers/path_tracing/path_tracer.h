@@ -224,7 +224,9 @@ class PathTracer {
     bool escapes_later_;                  ///< paths wait in `escaped_`
     std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
-    double most_beside_;  ///< bound of what `passes_beside` compares, for plain vertices
+    /// Bound of how far shadow rays of plain vertices pass beside their points, and of the rounding
+    /// of their tests.
+    double most_beside_;
     VertexLanes lanes_;
     RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;

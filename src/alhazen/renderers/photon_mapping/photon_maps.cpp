@@ -14,8 +14,6 @@ namespace alhazen {
 
 namespace {
 
-/// Bytes per photon while its map is built: the photon, its place and its index.
-constexpr double kBytesOfPhoton = sizeof(Photon) + 9;
 /// Number of sets of four wavelengths.
 constexpr std::uint32_t kWaveSets = 16;
 
@@ -35,7 +33,7 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
             taken += static_cast<double>(other->tree.photons().size());
         }
     }
-    const double most = std::min(settings.memory * 1e6 / kBytesOfPhoton - taken,
+    const double most = std::min(settings.memory * 1e6 / PhotonTree::kBytesOfPhoton - taken,
                                  double{std::numeric_limits<std::uint32_t>::max()});
     ShotPhotons shot_photons = shoot_photons(
         job, lights, shot, most > 0.0 ? static_cast<std::size_t>(most) : 0, "photon_mapping");

@@ -55,11 +55,12 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
-            } else if (faces_.sheet()) {
+            } else if (faces_.instead()) {
                 opening_.set(scene_, point_, path.media, *path.waves, false, nullptr,
                              &faces_.others());
-                if (opening_.is_null_boundary()) {
-                    hit_ = *faces_.sheet();
+                if (opening_.yields()) {
+                    hit_ = *faces_.instead();
+                    path.throughput = path.throughput * opening_.yielded();
                     set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
                     faces_.find(point_, path.ray.direction, arrival, path.mask());
                 }

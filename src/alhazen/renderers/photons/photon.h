@@ -53,6 +53,7 @@ class OctahedralVector {
         return v;
     }
     [[nodiscard]] bool is_none() const { return x_ == kNone; }
+    friend bool operator==(const OctahedralVector&, const OctahedralVector&) = default;
 
   private:
     static constexpr std::int16_t kNone = -32768;

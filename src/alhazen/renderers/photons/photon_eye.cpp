@@ -276,7 +276,7 @@ void PhotonEye::add_shadow_ray(const Branch& branch, double choice, const Vec2& 
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Ray shadow = ray_to_light(lights_, at.point, leaving_ray(point.surface, drawn.to_light),
-                                    drawn.distance, drawn.place);
+                                    drawn.distance, drawn.place, drawn.facing);
     shadows_.add(shadow, path.time, media, waves, path.throughput * (weight * light), direct);
 }
 
@@ -285,9 +285,9 @@ PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double cho
     const LightDraw drawn = lights_.draw(LitPoint::inside_volume(at.point), choice, place, waves);
     if (!(drawn.density > 0.0)) return {};
     const double phase = henyey_greenstein(dot(at.along, drawn.to_light), at.anisotropy);
-    return {
-        (phase / drawn.density) * drawn.radiance,
-        ray_to_light(lights_, at.point, {at.point, drawn.to_light}, drawn.distance, drawn.place)};
+    return {(phase / drawn.density) * drawn.radiance,
+            ray_to_light(lights_, at.point, {at.point, drawn.to_light}, drawn.distance, drawn.place,
+                         drawn.facing)};
 }
 
 void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& path,

@@ -12,22 +12,10 @@ namespace {
 /// Subtrees of at least this size are built in parallel.
 constexpr std::size_t kLargeSubtree = 1u << 14;
 
-int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> photons) {
-    std::array<double, 3> low = photons[order[0]].position, high = low;
-    for (const std::uint32_t i : order) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], photons[i].position[k]);
-            high[k] = std::max(high[k], photons[i].position[k]);
-        }
-    }
+int longest_axis(const Vec3& sides) {
     int longest = 0;
-    double side = -1.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double own = high[k] - low[k];
-        if (own > side) {
-            side = own;
-            longest = static_cast<int>(k);
-        }
+    for (int k = 1; k < 3; ++k) {
+        if (sides[k] > sides[longest]) longest = k;
     }
     return longest;
 }
@@ -68,17 +56,33 @@ void PhotonTree::keep_nearest(std::size_t count, std::vector<Near>& found) {
 }
 
 PhotonTree::PhotonTree(std::vector<Photon> photons)
-    : photons_(std::move(photons)), axes_(photons_.size()) {
+    : photons_(std::move(photons)), axes_(photons_.size()), boxes_(photons_.size() / kBoxed) {
     std::vector<std::uint32_t> order(photons_.size()), nodes(photons_.size());
     std::iota(order.begin(), order.end(), 0u);
     build(order, 0, nodes);
     permute(photons_, nodes);
+    mark_alike();
+}
+
+void PhotonTree::mark_alike() {
+    for (std::size_t node = photons_.size(); node-- > 0;) {
+        bool alike = true;
+        for (std::size_t child = 2 * node + 1; child < std::min(2 * node + 3, photons_.size());
+             ++child) {
+            alike = alike && (axes_[child] & kAlike) != 0 &&
+                    photons_[child].normal == photons_[node].normal;
+        }
+        if (alike) axes_[node] |= kAlike;
+    }
 }
 
 void PhotonTree::build(std::span<std::uint32_t> order, std::size_t node,
                        std::vector<std::uint32_t>& nodes) {
     if (order.empty()) return;
-    const int axis = longest_axis(order, photons_);
+    Box3 box;
+    for (const std::uint32_t i : order) box.include(photons_[i].point());
+    if (node < boxes_.size()) boxes_[node] = box;
+    const int axis = longest_axis(box.hi - box.lo);
     const std::size_t left = left_subtree_size(order.size());
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
         const auto k = static_cast<std::size_t>(axis);

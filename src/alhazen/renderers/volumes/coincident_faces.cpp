@@ -69,7 +69,7 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
                            RayMask mask) {
     others_.clear();
     opaque_.reset();
-    sheet_.reset();
+    instead_.reset();
     if (!kinds_ || point.material->coverage < 1.0) return;
     const Surface& surface = point.surface;
     const Kind kind = (*kinds_)[static_cast<std::size_t>(surface.materials[0])];
@@ -81,12 +81,11 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const HitParts own{surface.part, surface.instance};
     for (const Hit& hit : hits_) {
         if (parts_of(*scene_.aggregate, hit) == own) continue;
-        look_at(hit, volume_number(surface), arrival);
+        look_at(hit, volume_number(surface), is_sheet, arrival);
     }
-    if (is_sheet) sheet_.reset();
     if (opaque_) {
         others_.clear();
-        sheet_.reset();
+        instead_.reset();
         if (is_sheet) opaque_.reset();
     } else if (!others_.empty()) {
         const Medium inside = volume_of(scene_, point);
@@ -100,7 +99,7 @@ void CoincidentFaces::find_next_to_sheets(const ShadingPoint& point, const Vec3&
     if (!point.material->thin) return find(point, direction, arrival, mask);
     others_.clear();
     opaque_.reset();
-    sheet_.reset();
+    instead_.reset();
 }
 
 bool CoincidentFaces::may_bound(const Hit& hit) const {
@@ -144,15 +143,19 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     std::swap(others_, faces);
     others_.clear();
     opaque_.reset();
-    sheet_.reset();
+    instead_.reset();
 }
 
-void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival) {
+void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, bool at_sheet,
+                              const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
     if (other_.material->coverage < 1.0) return;
     if (other_.material->thin) {
         const auto id = static_cast<std::size_t>(other_.surface.materials[0]);
-        if (!sheet_ && (*kinds_)[id] != Kind::Opaque && !other_.surface.media.known) sheet_ = hit;
+        if (!at_sheet && !instead_ && (*kinds_)[id] != Kind::Opaque &&
+            !other_.surface.media.known) {
+            instead_ = hit;
+        }
         return;
     }
     const bool known = other_.surface.media.known;
@@ -166,6 +169,7 @@ void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, const Arrival& 
     if ((*kinds_)[material] == Kind::Opaque) {
         if (!opaque_) opaque_ = hit;
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {
+        if (at_sheet && !instead_) instead_ = hit;
         const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
         const MaterialSample& sample = *other_.material;
         others_.push_back({.inside = volume_of(scene_, other_),

@@ -10,7 +10,8 @@
 /// lowest primitive. A solid of several media is one volume; a face of it may be a wall between two
 /// of them. Partly covering faces are ignored.
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
-/// at a boundary that refracts, the one that was hit is met alone.
+/// at a boundary that refracts, a smooth sheet is not met, and of others and the boundary the one
+/// that was hit is met alone.
 
 #include <array>
 #include <cstddef>
@@ -56,8 +57,9 @@ class CoincidentFaces {
     [[nodiscard]] const OtherFaces& others() const { return others_; }
     /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
-    /// The hit of a thin sheet along `ray()` at a face that bounds a volume.
-    [[nodiscard]] const std::optional<Hit>& sheet() const { return sheet_; }
+    /// A hit along `ray()` that may be met instead of the surface: of a thin sheet at a face that
+    /// bounds a volume, of such a face at a thin sheet.
+    [[nodiscard]] const std::optional<Hit>& instead() const { return instead_; }
     /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 
@@ -87,8 +89,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
-    /// `own`: the volume of the face that was hit.
-    void look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival);
+    /// `own`: the volume of the face that was hit; `at_sheet`: it is a thin sheet.
+    void look_at(const Hit& hit, std::uint64_t own, bool at_sheet, const Arrival& arrival);
     /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is
     /// entered.
     void sort_entered(const ShadingPoint& point, const Medium* own, const Vec3& direction,
@@ -105,7 +107,7 @@ class CoincidentFaces {
     OtherFaces sorted_;
     std::vector<Entered> entered_;
     std::vector<Within> within_;
-    std::optional<Hit> opaque_, sheet_;
+    std::optional<Hit> opaque_, instead_;
     ShadingPoint other_;
 };
 

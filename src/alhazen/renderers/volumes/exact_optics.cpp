@@ -82,11 +82,12 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
     const MaterialSample& met = *point.material;
     const Sides sides =
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
-    const auto id = static_cast<std::size_t>(point.surface.materials[0]);
-    if (faces_.sheet() && sides.here == sides.beyond &&
-        may_be_null_boundary(scene_.materials[id], scene_.conventions.shading.air_index)) {
-        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.sheet()), arrival,
-                                 {.optics = this}, point);
+    if (faces_.instead() && yields(point, arrival.medium, sides)) {
+        const Rgb tint = met.thin ? tint_of(met) : Rgb{1, 1, 1};
+        set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
+                          {.optics = this}, point);
+        point.passing = tint * point.passing;
+        return;
     }
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
@@ -110,6 +111,18 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
         return;
     }
     point.passing = tint_of(*point.material) * sides.before;
+}
+
+bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
+    const MaterialSample& met = *point.material;
+    if (met.thin) {
+        const Sides all = sides_of_all(nullptr, around, faces_.others());
+        return all.here != all.beyond && met.diffuse.is_black() && met.ambient.is_black() &&
+               met.specular.is_black() && met.emission.is_black();
+    }
+    const auto id = static_cast<std::size_t>(point.surface.materials[0]);
+    return sides.here == sides.beyond &&
+           may_be_null_boundary(scene_.materials[id], scene_.conventions.shading.air_index);
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {

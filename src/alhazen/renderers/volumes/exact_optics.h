@@ -93,6 +93,8 @@ class ExactOptics final : public SurfaceOptics {
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
     /// A face that a ray crosses.
+    /// ScatterPoint::yields. `sides`: of the surface.
+    [[nodiscard]] bool yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides);
     struct Face {
         Medium inside;  ///< of a wall behind it
         bool entering = true, wall = false;

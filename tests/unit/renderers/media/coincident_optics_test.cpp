@@ -220,6 +220,30 @@ TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
     }
 }
 
+TEST(CoincidentOptics, AClearSheetOnAFaceThatRefractsAddsNoLight) {
+    // Everything is in uniform light of 1 and takes none of it.
+    for (const double z : {1.0, 0.0}) {
+        for (const bool sheet_first : {false, true}) {
+            SceneMaker maker;
+            maker.description().picture.background = kWhite;
+            const auto add_sheet = [&] {
+                maker.add(Rectangle{{-2, -2, z}, {4, 0, 0}, {0, 4, 0}},
+                          maker.material(clear_sheet(1.0)));
+            };
+            if (sheet_first) add_sheet();
+            maker.add(box(0, 1), maker.material(physical({1.5, 0.0})));
+            if (!sheet_first) add_sheet();
+            const Scene scene = maker.compile();
+            for (const char* renderer : {"whitted", "distributed", "path_tracing", "bidirectional",
+                                         "photon_mapping:photons=10", "sppm:photons=10"}) {
+                SCOPED_TRACE(renderer);
+                const Rgb c = testing::picture_of(scene, renderer, 1, 64).at(0, 0);
+                expect_near(c, kWhite, 1e-3);
+            }
+        }
+    }
+}
+
 TEST(CoincidentOptics, OverlappingVolumesAreLeftInAnyOrder) {
     const Layer above{1.5, 0, 2}, below{1.7, 0, 2};
     for (const auto material : {&physical, &by_kt}) {
