@@ -198,6 +198,7 @@ void set_media(const Scene& scene, ShadingPoint& point) {
 
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point) {
+    if (scene.has_masks) point.seen_by = mask_at(*scene.aggregate, hit);
     set_surface(*scene.aggregate, ray, hit, needs.coordinates, point.surface, arrival.time);
     complete_shading_point(scene, ray, arrival, needs, point);
 }

@@ -54,8 +54,9 @@ struct ShadingPoint {
     Surface surface;
     const MaterialSample* material = &own;  ///< `own`, or a shared sample
     MaterialSample own;
-    bool inside = false;   ///< the ray ran inside a transparent solid
-    bool entering = true;  ///< the ray hit the outside (by the geometric normal)
+    RayMask seen_by = kAllRays;  ///< the part; unknown to `complete_shading_point`
+    bool inside = false;         ///< the ray ran inside a transparent solid
+    bool entering = true;        ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
     Rgb passing;  ///< kt of the surface; at a wall, of both media
     /// kt of the medium that a solid of several media states on this side; else of the surface.
