@@ -138,7 +138,7 @@ INSIDE = {
         "core": ["core/reports"],
         "antialias": ["core"],
         "beam_tracing": ["core"],
-        "cone_tracing": ["core"],
+        "cone_tracing": ["volumes"],
         "lane_carpenter": ["core"],
         "volumes": ["core"],
         "light_transport": ["volumes"],

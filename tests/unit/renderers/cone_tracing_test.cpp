@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/pixel_cones.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/renderers/cone_tracing/cone_scene.h"
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
 #include "alhazen/renderers/cone_tracing/cone_tree.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -157,6 +161,67 @@ TEST(ConeTracing, TheFrontOfASolidHidesItsBack) {
     // The edge at x = 0.1 of the lower face is the first that the parallel rays meet.
     EXPECT_GT(seen, segment_area(kRadius, 0.1));
     EXPECT_LE(seen, 1.0);
+}
+
+/// Cubes in one mesh, the second of which is turned inside out where `inward` says so.
+TriangleMesh cubes(std::span<const Vec3> centers, double half, const std::vector<bool>& inward) {
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < centers.size(); ++i) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 corner{k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? half : -half};
+            mesh.positions.push_back(centers[i] + corner);
+        }
+        const std::array<std::array<std::uint32_t, 4>, 6> faces{
+            {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+        for (const auto& f : faces) {
+            for (std::array<std::uint32_t, 3> t :
+                 {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
+                for (std::uint32_t& corner : t) corner += first;
+                if (inward[i]) std::swap(t[1], t[2]);
+                mesh.triangles.push_back(t);
+            }
+        }
+    }
+    return mesh;
+}
+
+/// Their near faces are lit, their far ones in their shadow.
+TEST(ConeTracing, EachShellOfAMeshHasItsOwnOutside) {
+    const std::vector<Vec3> apart{{0, 0, 0}, {30, 0, 0}, {0, 30, 5}};
+    Material white;
+    white.diffuse.color = {1, 1, 1};
+    for (const double mirror : {1.0, -1.0}) {
+        for (int bits = 0; bits < 8; ++bits) {
+            SceneMaker maker;
+            const std::vector<bool> inward{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0};
+            maker.add(maker.mesh(cubes(apart, 2, inward)), maker.material(white),
+                      Affine::scale({mirror, 1, 1}));
+            maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+            EXPECT_NEAR(one_pixel(maker), 1, 1e-9) << bits << mirror;
+        }
+    }
+}
+
+/// A smaller cube in a larger one is a cavity, whichever way it faces: the odd-even rule.
+TEST(ConeTracing, AShellWithinAnotherIsACavity) {
+    for (int bits = 0; bits < 4; ++bits) {
+        TriangleMesh mesh = cubes(std::array{Vec3{0, 0, 0}}, 2, {(bits & 1) != 0});
+        const TriangleMesh inner = cubes(std::array{Vec3{0, 0, 0}}, 1, {(bits & 2) != 0});
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
+        for (std::array<std::uint32_t, 3> t : inner.triangles) {
+            for (std::uint32_t& corner : t) corner += first;
+            mesh.triangles.push_back(t);
+        }
+        SceneMaker maker;
+        maker.add(maker.mesh(mesh), maker.material(glowing({1, 1, 1})));
+        const Scene scene = maker.compile();
+        const ConeScene cones = cone_scene(maker.description(), scene);
+        ASSERT_EQ(cones.sources.size(), 1u);
+        EXPECT_EQ(cones.sources[0].is_inward(0), (bits & 1) != 0) << bits;
+        EXPECT_EQ(cones.sources[0].is_inward(12), (bits & 2) == 0) << bits;
+    }
 }
 
 TEST(ConeTracing, MoreCoverMeansFartherThingsShowLess) {

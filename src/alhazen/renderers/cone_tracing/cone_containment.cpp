@@ -11,6 +11,8 @@ namespace alhazen {
 
 namespace {
 
+constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
+
 /// Calls `visit` with each item of the tree whose leaf's box passes `test`.
 template <class Test, class Visit>
 void for_items(const ConeTree& tree, const Test& test, const Visit& visit) {
@@ -46,18 +48,25 @@ bool crosses(const std::array<Vec3, 3>& t, const Vec3& p) {
     return (dot(normal, t[0] - p) > 0.0) == (normal.x > 0.0);
 }
 
-bool contains(const ConeSource& source, const TriangleMesh& mesh, const Vec3& point) {
-    const Vec3 p = source.placed ? source.placement.inner_from_outer.point(point) : point;
-    bool in = false;
+/// True if the line from `p` along x crosses an odd number of triangles, without the one numbered
+/// `but`.
+bool crosses_odd(const ConeTree& tree, const TriangleMesh& mesh, const Vec3& p, std::uint32_t but) {
+    bool odd = false;
     const auto meets_line = [&](const ConeTree::Node& node) {
         return std::abs(p.y - node.center.y) <= node.half.y &&
                std::abs(p.z - node.center.z) <= node.half.z && p.x <= node.center.x + node.half.x;
     };
-    for_items(*source.tree, meets_line, [&](std::uint32_t k) {
+    for_items(tree, meets_line, [&](std::uint32_t k) {
+        if (k == but) return;
         const auto& t = mesh.triangles[k];
-        in ^= crosses({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, p);
+        odd ^= crosses({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, p);
     });
-    return in;
+    return odd;
+}
+
+bool contains(const ConeSource& source, const TriangleMesh& mesh, const Vec3& point) {
+    const Vec3 p = source.placed ? source.placement.inner_from_outer.point(point) : point;
+    return crosses_odd(*source.tree, mesh, p, kNoTriangle);
 }
 
 bool contains(const ConeScene& scene, const ConeSolid& solid, const Vec3& p) {
@@ -123,6 +132,13 @@ bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& po
     return contains(scene,
                     s.kind == ConeSource::Kind::Plane ? ConeSolid{source} : scene.solids[s.solid],
                     point);
+}
+
+bool faces_inward(const ConeTree& tree, const TriangleMesh& mesh, std::uint32_t triangle) {
+    const auto& t = mesh.triangles[triangle];
+    const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const bool is_inside_ahead = crosses_odd(tree, mesh, (a + b + c) / 3.0, triangle);
+    return is_inside_ahead == (cross(b - a, c - a).x > 0.0);
 }
 
 ConeWall wall_ahead(const ConeScene& scene, std::uint32_t source, std::uint32_t part,

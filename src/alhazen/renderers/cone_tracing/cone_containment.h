@@ -21,6 +21,11 @@ using SolidsAround = InlineVector<std::uint32_t, 8>;
 /// True if the closed source contains the point.
 [[nodiscard]] bool contains_point(const ConeScene& scene, std::uint32_t source, const Vec3& point);
 
+/// True if the corners of a triangle of a closed mesh are clockwise from outside; `tree`: over its
+/// triangles. Precondition: the triangle is not parallel to the x axis.
+[[nodiscard]] bool faces_inward(const ConeTree& tree, const TriangleMesh& mesh,
+                                std::uint32_t triangle);
+
 /// The boundary of a closed source that a ray meets.
 struct ConeWall {
     double t = 0;  ///< in lengths of the ray's direction

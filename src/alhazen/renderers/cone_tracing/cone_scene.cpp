@@ -7,9 +7,11 @@
 
 #include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/cone_tracing/cone_containment.h"
 #include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shapes/meshes/mesh_shells.h"
 #include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
@@ -149,6 +151,9 @@ class ConeGatherer {
         source.inward =
             facts.inward != (determinant(source.placement.outer_from_inner.linear) < 0.0);
         source.tree = result_.mesh_trees.at(mesh).get();
+        if (const auto at = result_.turned.find(mesh); at != result_.turned.end()) {
+            source.turned = &at->second;
+        }
         result_.items.push_back({static_cast<std::uint32_t>(result_.sources.size())});
         result_.sources.push_back(std::move(source));
     }
@@ -158,11 +163,39 @@ class ConeGatherer {
         if (!is_new) return at->second;
         MeshFacts& facts = at->second;
         facts.closed = mesh.closed();
-        facts.inward = facts.closed && signed_volume(mesh) < 0.0;
         std::vector<Box3> boxes(mesh.triangles.size());
         for (std::size_t k = 0; k < boxes.size(); ++k) boxes[k] = mesh.triangle_box(k);
         result_.mesh_trees[&mesh] = std::make_unique<ConeTree>(boxes);
+        if (facts.closed) orient(mesh, facts);
         return facts;
+    }
+    /// Finds which sides of a closed mesh face outward: of several shells for each.
+    void orient(const TriangleMesh& mesh, MeshFacts& facts) {
+        const MeshShells shells = mesh_shells(mesh);
+        if (shells.count == 1) {
+            facts.inward = signed_volume(mesh) < 0.0;
+            return;
+        }
+        struct Largest {
+            double area = 0;  ///< along x, where the shell is looked at
+            std::uint32_t triangle = 0;
+        };
+        std::vector<Largest> largest(shells.count);
+        for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+            const auto& t = mesh.triangles[k];
+            const Vec3& a = mesh.positions[t[0]];
+            const Vec3 normal = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+            Largest& found = largest[shells.of_triangle[k]];
+            if (std::abs(normal.x) > found.area) found = {std::abs(normal.x), k};
+        }
+        std::vector<bool> inward;
+        for (const Largest& found : largest) {
+            inward.push_back(found.area > 0.0 &&
+                             faces_inward(*result_.mesh_trees.at(&mesh), mesh, found.triangle));
+        }
+        if (std::find(inward.begin(), inward.end(), true) == inward.end()) return;
+        std::vector<bool>& turned = result_.turned[&mesh];
+        for (const std::uint32_t shell : shells.of_triangle) turned.push_back(inward[shell]);
     }
 
     void add_shape(std::shared_ptr<AnyShape> shape, const Part& part, ConeSource source) {

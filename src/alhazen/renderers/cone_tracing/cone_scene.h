@@ -39,6 +39,13 @@ struct ConeSource {
     Vec3 point, normal;  ///< world: centre of the sphere; a point of the plane, its normal
     double radius = 0;   ///< radius of the sphere
     const ConeTree* tree = nullptr;  ///< over the triangles of the mesh, in its own frame
+    /// [triangle] of a closed mesh of several shells: winds otherwise than `inward` says; or null.
+    const std::vector<bool>* turned = nullptr;
+
+    /// True if the corners of the triangle are clockwise from outside, in world space.
+    [[nodiscard]] bool is_inward(std::uint32_t triangle) const {
+        return turned != nullptr ? inward != (*turned)[triangle] : inward;
+    }
 };
 
 /// A flat face in world space.
@@ -71,6 +78,7 @@ struct ConeScene {
     std::vector<ConeSolid> solids;      ///< the bounded ones
     ConeTree solid_tree;                ///< over `solids`
     std::map<const TriangleMesh*, std::unique_ptr<ConeTree>> mesh_trees;
+    std::map<const TriangleMesh*, std::vector<bool>> turned;  ///< ConeSource::turned
     std::uint32_t surfaces = 0;
 };
 

@@ -185,7 +185,7 @@ void ConeSearch::add_triangle(const Level& level, std::uint32_t triangle) {
     bool front = false;
     const ConeCover cover = triangle_cover(corners, range, level.map.converges, front);
     if (!(cover.share > kLeastCover)) return;
-    front = front != source.inward;
+    front = front != source.is_inward(triangle);
     const bool far_side = is_far_side(source, level.source, front);
     if (far_side && !source.may_pass) return;
     const TrianglePlace place = place_in_triangle(corners, cover.at);

@@ -7,6 +7,7 @@
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/core/refraction.h"
 #include "alhazen/renderers/core/rough_lobe.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 
 namespace alhazen {
 
@@ -18,6 +19,20 @@ constexpr std::size_t kShadedPieces = 4, kShadedPiecesOnward = 1;
 constexpr double kSideOfDisc = 1.7724538509055159;
 /// Pieces of a smaller share of the pixel start no secondary cones.
 constexpr double kLeastConeShare = 1.0 / 256;
+
+/// Joins a point with faces that are known.
+class KnownFaces final : public SurfaceOptics {
+  public:
+    KnownFaces(TouchingFaces& touching, const OtherFaces& others)
+        : touching_(touching), others_(others) {}
+    void set_media(const Arrival& arrival, ShadingPoint& point) override {
+        touching_.join(others_, arrival, point);
+    }
+
+  private:
+    TouchingFaces& touching_;
+    const OtherFaces& others_;
+};
 
 Ray line_of(const ConeRay& cone, const Vec2& at) {
     const Vec3 ex = perpendicular(cone.axis), ey = cross(cone.axis, ex);
@@ -52,7 +67,8 @@ ConeTracer::ConeTracer(const RenderJob& job, const ConeScene& scene, bool tables
       counters_(counters),
       ambient_(ambient_terms(job.scene.lights)),
       depth_(job.camera),
-      search_(scene, tables) {}
+      search_(scene, tables),
+      touching_(job.scene, tinted_) {}
 
 Rgb ConeTracer::trace_eye(const ConeRay& cone, PixelGeometry* geometry) {
     if (eye_ != cone.origin) {
@@ -84,7 +100,9 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
     for (const SeenPiece& s : pieces) {
         Seen seen = seen_at(s.piece, cone, path, depth);
         ShadingPoint point;
+        const std::size_t media = tinted_.mark();
         set_point(seen, point, false);
+        join_touching(seen, point);
         if (geometry != nullptr && &s == largest) {
             geometry->add_ids(point.surface);
             geometry->add(point, depth_);
@@ -97,6 +115,7 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
             watcher_->begin_piece(s.piece, s.weight, seen.radius, seen.t, point);
         }
         Rgb color = color_of(weighted, point);
+        tinted_.release(media);
         if (!path.absorption.is_black()) color = color * transmittance(path.absorption, seen.t);
         if (watcher_ != nullptr) watcher_->end_piece(color);
         sum += s.weight * color;
@@ -160,7 +179,8 @@ ConeTracer::Seen ConeTracer::seen_at(const ConePiece& piece, const ConeRay& cone
             depth};
 }
 
-void ConeTracer::set_point(const Seen& seen, ShadingPoint& point, bool meets_backs) const {
+void ConeTracer::set_point(const Seen& seen, ShadingPoint& point, bool meets_backs,
+                           SurfaceOptics* optics) const {
     const ConeSource& source = geometry_.sources[seen.piece.source];
     const Placement* placement = source.placed ? &source.placement : nullptr;
     if (source.kind == ConeSource::Kind::Mesh) {
@@ -180,8 +200,76 @@ void ConeTracer::set_point(const Seen& seen, ShadingPoint& point, bool meets_bac
     complete_shading_point(scene_, seen.ray,
                            {.inside = seen.path.inside,
                             .width = kSideOfDisc * seen.radius,
-                            .meets_backs = meets_backs},
-                           {}, point);
+                            .meets_backs = meets_backs,
+                            .medium = seen.path.medium,
+                            .mask = mask_of(seen.path.start.kind)},
+                           {.optics = optics}, point);
+}
+
+std::optional<ConePiece> ConeTracer::piece_at(const Seen& seen, std::uint32_t source,
+                                              const Ray& to_wall) const {
+    const ConeSource& other = geometry_.sources[source];
+    if (source == seen.piece.source) return std::nullopt;
+    if ((other.visible_to & mask_of(seen.path.start.kind)) == 0) return std::nullopt;
+    const ConeWall wall = wall_ahead(geometry_, source, ConeStart::kNone, to_wall);
+    if (!std::isfinite(wall.t)) return std::nullopt;
+    ConePiece piece = seen.piece;
+    piece.source = source;
+    piece.part = wall.part;
+    piece.u = wall.u;
+    piece.v = wall.v;
+    return piece;
+}
+
+void ConeTracer::join_touching(const Seen& seen, ShadingPoint& point) {
+    const bool bounds =
+        may_bound_volume(scene_.material_of(point.surface)) && !point.material->thin;
+    if (!bounds || !geometry_.sources[seen.piece.source].closed) return;
+    const Vec3& along = seen.ray.direction;
+    const Vec3 before = leaving_ray(point.surface, -along).origin;
+    const Vec3 behind = leaving_ray(point.surface, along).origin;
+    const SolidsAround left = solids_around(geometry_, before);
+    const SolidsAround entered = solids_around(geometry_, behind);
+    const auto is_in = [](std::uint32_t source, const SolidsAround& solids) {
+        return std::find(solids.begin(), solids.end(), source) != solids.end();
+    };
+    OtherFaces others;
+    ShadingPoint at;
+    /// Adds the face at a piece. True if it is opaque.
+    const auto add = [&](const ConePiece& piece, bool entering, bool around) {
+        set_point({piece, seen.cone, seen.path, seen.ray, seen.t, seen.radius, seen.depth}, at,
+                  false);
+        const Material& material = scene_.material_of(at.surface);
+        if (at.material->coverage < 1.0 || at.material->thin) return false;
+        if (material.is_opaque()) return true;
+        if (!may_bound_volume(material)) return false;
+        others.push_back({.inside = volume_of(scene_, at),
+                          .entering = entering,
+                          .around = around,
+                          .physical = at.material->physical,
+                          .kt = at.material->transmissive});
+        return false;
+    };
+    // From within a solid its wall is ahead. Larger ones are taken for those around smaller ones.
+    bool around = is_in(seen.piece.source, entered);
+    for (std::size_t k = entered.size(); k-- > 0;) {
+        around = around && entered[k] != seen.piece.source;
+        if (is_in(entered[k], left)) continue;
+        const std::optional<ConePiece> piece = piece_at(seen, entered[k], {behind, -along});
+        if (piece && add(*piece, true, around)) {
+            return set_point(
+                {*piece, seen.cone, seen.path, seen.ray, seen.t, seen.radius, seen.depth}, point,
+                false);
+        }
+    }
+    for (const std::uint32_t source : left) {
+        if (is_in(source, entered)) continue;
+        const std::optional<ConePiece> piece = piece_at(seen, source, {before, along});
+        if (piece) (void)add(*piece, false, false);
+    }
+    if (others.empty()) return;
+    KnownFaces known(touching_, others);
+    set_point(seen, point, false, &known);
 }
 
 Rgb ConeTracer::color_of(const Seen& seen, const ShadingPoint& point) {
@@ -298,8 +386,9 @@ Rgb ConeTracer::reflected(const Seen& seen, const ShadingPoint& point) {
 bool ConeTracer::refracts(const ShadingPoint& point, const Ray& ray, double& eta,
                           Vec3& direction) const {
     const double air = conventions_.air_index;
-    eta = refracts_inward(conventions_, point) ? air / point.material->index
-                                               : point.material->index / air;
+    eta = point.behind.known                     ? point.behind.eta
+          : refracts_inward(conventions_, point) ? air / point.material->index
+                                                 : point.material->index / air;
     if (!refract(ray.direction, point.normal, eta, direction)) return false;
     return !conventions_.correct_interpolated_normals || !(dot(direction, point.geometric) > 0.0) ||
            refract(ray.direction, point.geometric, eta, direction);
@@ -333,14 +422,21 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
     path.contribution = contribution;
     const std::uint32_t source = seen.piece.source;
     const std::size_t media = tinted_.mark();
+    const BehindSurface& behind = point.behind;
     if (!material.thin) {
-        path.inside = point.entering;
-        path.absorption = point.entering ? material.absorption : Rgb{};
+        path.inside = behind.known ? behind.inside : point.entering;
+        path.absorption = behind.known     ? behind.absorption
+                          : point.entering ? material.absorption
+                                           : Rgb{};
         const bool closed = scene_.is_closed(point.surface.part);
-        path.medium = tinted_medium_behind(point, closed, tinted_, seen.path.medium);
+        path.medium = behind.joined
+                          ? behind.medium
+                          : tinted_medium_behind(point, closed, tinted_, seen.path.medium);
         keep_absorption(point, closed, tinted_, path.medium, path.inside, path.absorption);
     }
-    if (geometry_.sources[source].closed) {
+    if (behind.joined) {
+        path.start.inside = solids_around(geometry_, leaving_ray(point.surface, cone.axis).origin);
+    } else if (geometry_.sources[source].closed) {
         path.start.set_inside(source, seen.piece.front);
     }
     const bool tinted = material.physical || conventions_.refraction_tint ==

@@ -18,6 +18,7 @@
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/tinted_media.h"
+#include "alhazen/renderers/volumes/touching_faces.h"
 
 namespace alhazen {
 
@@ -115,7 +116,13 @@ class ConeTracer {
     static constexpr int kMostPieces = 192;
     static constexpr int kMostNarrowings = 16;  ///< afterwards the nearest pieces are taken
     /// `meets_backs`: as in Arrival.
-    void set_point(const Seen& seen, ShadingPoint& point, bool meets_backs) const;
+    void set_point(const Seen& seen, ShadingPoint& point, bool meets_backs,
+                   SurfaceOptics* optics = nullptr) const;
+    /// The piece of another closed source at the place of one, where `to_wall` meets its boundary.
+    [[nodiscard]] std::optional<ConePiece> piece_at(const Seen& seen, std::uint32_t source,
+                                                    const Ray& to_wall) const;
+    /// Joins the faces of other solids at a completed point with it; an opaque one replaces it.
+    void join_touching(const Seen& seen, ShadingPoint& point);
     [[nodiscard]] SurfaceShare share_of(const ConePiece& piece, const ConeStart& start) const;
     /// Gathers the visible pieces and the remainder of the cone. False if there are too many.
     [[nodiscard]] bool gather(const ConeRay& cone, const ConePath& path, int depth,
@@ -160,6 +167,7 @@ class ConeTracer {
     const DepthScale depth_;
     ConeSearch search_;
     TintedMedia tinted_;
+    TouchingFaces touching_;                   ///< at the last piece
     CrossedVolumes volumes_;                   ///< around the start of a shadow cone
     Way way_ = Way::Clear;                     ///< of the shadow cone
     std::optional<LightInside> light_inside_;  ///< the last answer, for one shadow cone

@@ -152,8 +152,9 @@ bool set_material(const Scene& scene, const Vec3& direction, double width, Mater
     return true;
 }
 
-/// Sets the media before and behind the surface and the material as seen from there.
-void set_media(const Scene& scene, ShadingPoint& point) {
+}  // namespace
+
+void set_media_of_material(const Scene& scene, ShadingPoint& point) {
     const SurfaceMedia& media = point.surface.media;
     const double cosine = dot(point.view, point.normal);
     point.behind = {};
@@ -194,11 +195,10 @@ void set_media(const Scene& scene, ShadingPoint& point) {
     point.passing = material.transmissive * before_passes;
 }
 
-}  // namespace
-
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point) {
     set_surface(*scene.aggregate, ray, hit, needs.coordinates, point.surface, arrival.time);
+    if (scene.has_masks) point.seen_by = mask_at(*scene.aggregate, hit);
     complete_shading_point(scene, ray, arrival, needs, point);
 }
 
@@ -231,7 +231,7 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     if (needs.optics != nullptr) {
         needs.optics->set_media(arrival, point);
     } else {
-        set_media(scene, point);
+        set_media_of_material(scene, point);
     }
 }
 

@@ -23,7 +23,7 @@ struct BehindSurface {
     bool inside = false;  ///< there is a medium, not air
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
-    std::uint32_t medium = 0;  ///< of ExactOptics, if used
+    std::uint32_t medium = 0;  ///< of ExactOptics, if used; where `joined`, else of TintedMedia
     bool joined = false;       ///< faces of several parts are crossed at once
     Rgb kt{1, 1, 1};           ///< of a unit of length
 };
@@ -54,8 +54,9 @@ struct ShadingPoint {
     Surface surface;
     const MaterialSample* material = &own;  ///< `own`, or a shared sample
     MaterialSample own;
-    bool inside = false;   ///< the ray ran inside a transparent solid
-    bool entering = true;  ///< the ray hit the outside (by the geometric normal)
+    RayMask seen_by = kAllRays;  ///< the part; unknown to `complete_shading_point`
+    bool inside = false;         ///< the ray ran inside a transparent solid
+    bool entering = true;        ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
     Rgb passing;  ///< kt of the surface; at a wall, of both media
     /// kt of the medium that a solid of several media states on this side; else of the surface.
@@ -118,7 +119,7 @@ struct Arrival {
     /// True if the ray hits the backs of single-sided surfaces: in light transport, all but eye
     /// rays.
     bool meets_backs = false;
-    std::uint32_t medium = 0;  ///< of PointNeeds::optics
+    std::uint32_t medium = 0;  ///< of the ray; read by PointNeeds::optics
     RayMask mask = kAllRays;   ///< parts that the ray sees; read by PointNeeds::optics
 };
 
@@ -135,6 +136,10 @@ class SurfaceOptics {
     SurfaceOptics& operator=(const SurfaceOptics&) = default;
     ~SurfaceOptics() = default;
 };
+
+/// Completes a point without other optics: sets the media before and behind the surface and the
+/// material as seen from there.
+void set_media_of_material(const Scene& scene, ShadingPoint& point);
 
 /// Parts of a shading point that the caller needs.
 struct PointNeeds {

@@ -21,15 +21,15 @@ class CameraRays {
         const PicturePlane plane = picture_plane(job.camera);
         up_ = plane.up;
         mirrored_ = dot(cross(plane.right, plane.up), plane.forward) > 0.0;
-        if (!parallel_) media_ = finder_.around(picture_plane(job.camera).eye, 0.0f);
+        if (!parallel_) media_ = around(picture_plane(job.camera).eye, 0.0f);
     }
 
     /// ScatteringMedia::are_followed.
     [[nodiscard]] bool follows_volumes() const { return follows_volumes_; }
-    /// The volumes around the origin of an eye ray: those of the eye when the shutter opens; for
-    /// parallel cameras those of each ray.
+    /// The volumes around the origin of an eye ray that eye rays see: those of the eye when the
+    /// shutter opens; for parallel cameras those of each ray.
     [[nodiscard]] MediumStack media(const Ray& ray, float time) const {
-        return parallel_ ? finder_.around(ray.origin, time) : media_;
+        return parallel_ ? around(ray.origin, time) : media_;
     }
 
     /// The time of a sample.
@@ -54,6 +54,13 @@ class CameraRays {
     }
 
   private:
+    /// The volumes around a point that eye rays see.
+    [[nodiscard]] MediumStack around(const Vec3& point, float time) const {
+        MediumStack media = finder_.around(point, time);
+        media.keep_seen_by(mask_of(RayKind::Eye));
+        return media;
+    }
+
     LensRays lens_;
     bool follows_volumes_;
     const TransformMotion* motion_;

@@ -38,14 +38,15 @@ ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, Trav
 void ConnectionBatch::add(const Ray& ray, float time, const MediumStack& media,
                           const Wavelengths& waves, const Spectrum& light, Spectrum& sum) {
     if (waiting_.size() == kMostRays) finish();
-    const Medium* const medium = media.here();
+    const MediumStack& around = seen_of(media);
+    const Medium* const medium = around.here();
     // If volumes are followed, this one may end along the ray.
     const Spectrum left =
         media_.are_followed() || medium == nullptr || medium->absorption.is_black()
             ? light
             : light * left_by(medium, ray.t_max * length(ray.direction), waves);
     if (left.is_black()) return;
-    if (media_.are_followed()) around_.push_back(media);
+    if (media_.are_followed()) around_.push_back(around);
     rays_[waiting_.size()] = ray;
     times_.push_back(time);
     waiting_.push_back({left, &waves, &sum});
@@ -80,6 +81,13 @@ void ConnectionBatch::finish() {
     waiting_.clear();
 }
 
+const MediumStack& ConnectionBatch::seen_of(const MediumStack& media) {
+    if (!scene_.has_masks || media.empty()) return media;
+    seen_ = media;
+    seen_.keep_seen_by(connecting_);
+    return seen_;
+}
+
 void ConnectionBatch::find_met(std::span<bool> met) {
     const std::span<const Ray> rays = std::span(rays_).first(met.size());
     if (scene_.has_motion) {
@@ -91,7 +99,7 @@ void ConnectionBatch::find_met(std::span<bool> met) {
 
 Spectrum ConnectionBatch::passing(const Ray& ray, float time, const MediumStack& media,
                                   const Wavelengths& waves, FreeFlight* flight) {
-    return passing(ray, time, RayKind::Shadow, media, waves, flight);
+    return passing(ray, time, RayKind::Shadow, seen_of(media), waves, flight);
 }
 
 Spectrum ConnectionBatch::seen(const Ray& from_eye, float time, const MediumStack& media,

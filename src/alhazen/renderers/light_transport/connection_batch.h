@@ -74,6 +74,8 @@ class ConnectionBatch {
     [[nodiscard]] RayMask mask_for(RayKind kind) const {
         return kind == RayKind::Shadow ? connecting_ : mask_of(kind);
     }
+    /// The volumes around a point that rays to lights see. Valid until the next call.
+    [[nodiscard]] const MediumStack& seen_of(const MediumStack& media);
     void find_met(std::span<bool> met);
     /// Finds the surfaces that a ray passes. False if one blocks it.
     [[nodiscard]] bool find_crossings(const Ray& ray, float time, RayKind kind);
@@ -104,6 +106,7 @@ class ConnectionBatch {
     std::vector<Ray> rays_;  ///< kMostRays, of which the first wait
     std::vector<Waiting> waiting_;
     std::vector<float> times_;
+    MediumStack seen_;                 ///< result of `seen_of`
     std::vector<MediumStack> around_;  ///< [ray]; only if volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;

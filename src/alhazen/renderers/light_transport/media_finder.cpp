@@ -24,7 +24,7 @@ MediaFinder::MediaFinder(const Scene& scene)
     : scene_(scene),
       faces_(scene),
       has_volumes_(std::any_of(scene.materials.begin(), scene.materials.end(),
-                               [](const Material& m) { return !m.is_opaque(); })) {
+                               [](const Material& m) { return has_inside(m); })) {
     if (!has_volumes_) return;
     const BoundingSphere sphere = sphere_around_bounded(scene);
     center_ = sphere.center;

@@ -270,6 +270,8 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
     if (start.of_either) choose_first(front, draws);
+    passed_ = false;
+    front.media.keep_seen_by(mask());
     int count = 0;
     for (std::uint32_t pair = draws.first_pair; count < draws.most; pair += kWalkPairs) {
         const Meets meets = find(front, draws, start);

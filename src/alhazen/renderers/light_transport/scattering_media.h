@@ -34,7 +34,7 @@ class ScatteringMedia {
         : scene_(scene),
           open_(std::any_of(scene.materials.begin(), scene.materials.end(),
                             [](const Material& m) {
-                                return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
+                                return m.alpha_mode != AlphaMode::Opaque && has_inside(m);
                             })),
           null_(std::any_of(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
               return may_be_null_boundary(m, scene.conventions.shading.air_index);

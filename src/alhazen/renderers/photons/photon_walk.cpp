@@ -119,6 +119,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     path.media = start.media;
     FirstSegment first_segment = FirstSegment::Any;
     if (start.of_either) first_segment = choose_first(path, numbers);
+    path.media.keep_seen_by(path.mask());
     Spectrum begun = path.throughput;
     Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;

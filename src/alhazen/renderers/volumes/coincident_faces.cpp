@@ -128,7 +128,8 @@ std::optional<Medium> CoincidentFaces::volume_behind(const Hit& hit,
         if (bounds_by(0)) return volume_of(scene_, point);
         const MaterialSample inside = medium_at(scene_, surface, id);
         if (inside.thin) return std::nullopt;
-        return Medium{volume_number(surface), inside.index, inside.absorption, medium};
+        return Medium{volume_number(surface), inside.index, inside.absorption, medium,
+                      point.seen_by};
     }
     for (int i = 0; i < surface.material_count; ++i) {
         if (bounds_by(i)) return volume_of(scene_, point);

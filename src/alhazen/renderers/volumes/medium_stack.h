@@ -4,12 +4,15 @@
 /// Conventions: a volume is identified by the part that bounds it, so that overlapping volumes may
 /// be left in any order. Leaving a part that was not entered leaves the innermost volume of its
 /// material: a boundary may consist of several parts. A solid of several media is one volume, whose
-/// medium changes at its walls. Beyond kMost volumes around a point, the outermost are dropped.
+/// medium changes at its walls. Beyond kMost volumes around a point, the outermost are dropped. A
+/// ray begins in no volume whose part it does not see, if it leaves an eye or a light or goes to
+/// one; other rays are in all volumes that their path has entered and not left.
 
 #include <cstdint>
 
 #include "alhazen/base/inline_vector.h"
 #include "alhazen/base/unmade.h"
+#include "alhazen/geometry/ray_mask.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/primitives/surface.h"
 
@@ -25,6 +28,7 @@ struct Medium {
     double index = 1;
     Rgb absorption;  ///< per unit length: transmittance is exp(-absorption * length)
     std::uint32_t material = 0;
+    RayMask seen_by = kAllRays;  ///< the part
 };
 
 class MediumStack {
@@ -68,6 +72,12 @@ class MediumStack {
     /// Does nothing if the volume was not entered.
     void leave(const Medium& volume) {
         if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
+    }
+    /// Removes all volumes whose parts rays of `mask` do not see.
+    void keep_seen_by(RayMask mask) {
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if ((media_[i].value.seen_by & mask) == 0) remove(i);
+        }
     }
     /// The volume of the part has that medium from now on; it is entered if it was not.
     void change(const Medium& medium) {

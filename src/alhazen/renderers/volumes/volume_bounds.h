@@ -46,12 +46,13 @@ namespace alhazen {
     if (surface.media.known) {
         const std::optional<MaterialId>& id =
             surface.media.after ? surface.media.after : surface.media.before;
-        if (!id) return {.part = number, .material = 0xFFFFFFFFu};
+        if (!id) return {.part = number, .material = 0xFFFFFFFFu, .seen_by = point.seen_by};
         const MaterialSample medium = medium_at(scene, surface, *id);
-        return {number, medium.index, medium.absorption, static_cast<std::uint32_t>(*id)};
+        return {number, medium.index, medium.absorption, static_cast<std::uint32_t>(*id),
+                point.seen_by};
     }
     Medium volume{number, point.material->index, point.material->absorption,
-                  static_cast<std::uint32_t>(volume_material(surface))};
+                  static_cast<std::uint32_t>(volume_material(surface)), point.seen_by};
     if (surface.volume) {
         volume.absorption = medium_at(scene, surface, *surface.volume).absorption;
     }

@@ -20,6 +20,7 @@
 #include "alhazen/renderers/direct_light/direct_light.h"
 #include "alhazen/renderers/volumes/exact_optics.h"
 #include "alhazen/renderers/volumes/shadow_batch.h"
+#include "alhazen/renderers/volumes/touching_faces.h"
 #include "alhazen/renderers/whitted/wave_split.h"
 #include "alhazen/shading/optics/dispersion.h"
 
@@ -93,6 +94,10 @@ class RecursiveEstimator {
             if (illuminates(scene_.lights[i])) shadow_lights_.push_back(i);
         }
         if (!conventions_.optics.any()) {
+            if (!scene_.all_opaque) {
+                touching_.emplace(scene_, tinted_);
+                visible_.use(*touching_);
+            }
             shadows_.use(tinted_);
             if constexpr (TreeWatcher<Randomness>) random_.use(tinted_);
             return;
@@ -386,7 +391,9 @@ class RecursiveEstimator {
                 onward.medium = behind.medium;
             } else if (tracks_media()) {
                 const bool closed = scene_.is_closed(point.surface.part);
-                onward.medium = tinted_medium_behind(point, closed, tinted_, seen.path.medium);
+                onward.medium =
+                    behind.joined ? behind.medium
+                                  : tinted_medium_behind(point, closed, tinted_, seen.path.medium);
                 keep_absorption(point, closed, tinted_, onward.medium, onward.inside,
                                 onward.absorption);
             }
@@ -439,8 +446,9 @@ class RecursiveEstimator {
     [[nodiscard]] double eta_of(const Seen& seen, double nm) const {
         const ShadingPoint& point = seen.point;
         if (nm > 0.0) {
-            return optics_ ? optics_->eta_by_wave(seen.path.medium, point, nm)
-                           : eta_by_wave(scene_, point, nm);
+            if (optics_) return optics_->eta_by_wave(seen.path.medium, point, nm);
+            return point.behind.joined ? touching_->eta_by_wave(nm)
+                                       : eta_by_wave(scene_, point, nm);
         }
         const double air = conventions_.air_index;
         if (point.behind.known) return point.behind.eta;
@@ -473,13 +481,14 @@ class RecursiveEstimator {
     ShadowBatch shadows_;
     Randomness random_;
     const WaveSplit* split_;
-    const Rgb unhindered_;                ///< the background as seen by a ray that meets nothing
-    std::optional<DirectLight> direct_;   ///< in place of `shadows_` if it covers the scene
-    std::optional<ExactOptics> optics_;   ///< if the scene has exact optics
-    TintedMedia tinted_;                  ///< if it has none
-    std::vector<Path> eye_paths_;         ///< [sample] of eye rays
-    std::vector<std::uint32_t> gone_on_;  ///< eye rays with another cone than at their start
-    std::deque<Wavefront> fronts_;        ///< [depth]; references stay valid while it grows
+    const Rgb unhindered_;                   ///< the background as seen by a ray that meets nothing
+    std::optional<DirectLight> direct_;      ///< in place of `shadows_` if it covers the scene
+    std::optional<ExactOptics> optics_;      ///< if the scene has exact optics
+    std::optional<TouchingFaces> touching_;  ///< if it has none, and not all is opaque
+    TintedMedia tinted_;                     ///< if it has none
+    std::vector<Path> eye_paths_;            ///< [sample] of eye rays
+    std::vector<std::uint32_t> gone_on_;     ///< eye rays with another cone than at their start
+    std::deque<Wavefront> fronts_;           ///< [depth]; references stay valid while it grows
 };
 
 }  // namespace alhazen

@@ -20,10 +20,8 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-struct Shells {
-    std::vector<std::uint32_t> of_triangle;  ///< [triangle] its shell
-    std::vector<std::uint32_t> merged;       ///< [vertex] the one that replaces it
-    std::uint32_t count = 0;
+struct Shells : MeshShells {
+    std::vector<std::uint32_t> merged;  ///< [vertex] the one that replaces it
 };
 
 /// The shells of triangles whose vertices are first replaced by those of `merged`.
@@ -67,7 +65,7 @@ Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
         first = end;
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    Shells shells{std::vector<std::uint32_t>(parent.size(), kNone), std::move(merged)};
+    Shells shells{{std::vector<std::uint32_t>(parent.size(), kNone)}, std::move(merged)};
     for (std::uint32_t i = 0; i < parent.size(); ++i) {
         std::uint32_t& number = shells.of_triangle[root(i)];
         if (number == kNone) number = shells.count++;
@@ -201,6 +199,10 @@ bool some_is_no_cavity(const TriangleMesh& mesh, const Shells& shells,
 }
 
 }  // namespace
+
+MeshShells mesh_shells(const TriangleMesh& mesh) {
+    return shells_of(mesh);
+}
 
 bool has_inward_shell(const TriangleMesh& mesh) {
     const Shells shells = shells_of(mesh);

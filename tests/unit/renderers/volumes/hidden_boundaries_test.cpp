@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 #include "support/image_texture.h"
 #include "support/light_pictures.h"
 
@@ -298,6 +299,63 @@ TEST(HiddenBoundaries, LightsOnABoundaryStartOnTheSideToWhichTheyShine) {
                 }
             }
         }
+    }
+}
+
+/// Light enters it by diffuse transmission alone.
+Material milky(double alpha) {
+    Material m;
+    MetallicRoughness& p = m.metallic_roughness.emplace();
+    p.metallic.value = 0;
+    p.thickness.value = 1;
+    p.diffuse_transmission.share.value = 1;
+    p.attenuation_color = {std::exp(-1.0), 1, 1};
+    p.attenuation_distance = 1;
+    m.alpha.value = alpha;
+    if (alpha < 1) m.alpha_mode = AlphaMode::Mask;
+    return m;
+}
+
+TEST(HiddenBoundaries, AVolumeOfDiffuseTransmissionIsOneWhateverElseIsThere) {
+    for (const bool with_glass : {false, true}) {
+        SceneMaker maker;
+        maker.add(BoxShape{{-4, -4, 0}, {4, 4, 1}}, maker.material(milky(0)));
+        maker.add(rectangle({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}),
+                  maker.material(shining({1, 1, 1})));
+        if (with_glass) {
+            // Where nothing sees it.
+            Material cut_glass = glass();
+            cut_glass.alpha_mode = AlphaMode::Mask;
+            maker.add(BoxShape{{0, 0, -9}, {1, 1, -8}}, maker.material(cut_glass));
+        }
+        maker.description().cameras[0].camera =
+            look_along({0.1, 0.2, 4}, {0, 0, -1}, {0, 1, 0}, 0.01, 1.0);
+        const Scene open = maker.compile();
+        for (const std::string& renderer : kRenderers) {
+            const Rgb seen = mean_of(picture_of(open, renderer, 2, 4));
+            EXPECT_NEAR(seen.r, std::exp(-1.0), 1e-3) << renderer << with_glass;
+            EXPECT_NEAR(seen.g, 1, 1e-9) << renderer << with_glass;
+        }
+    }
+    SceneMaker closed;
+    closed.add(BoxShape{{-4, -4, 0}, {4, 4, 1}}, closed.material(milky(1)));
+    const Scene scene = closed.compile();
+    const MediaFinder finder(scene);
+    EXPECT_FALSE(finder.around({0.1, 0.2, 0.5}, 0).empty());
+    EXPECT_TRUE(finder.around({0.1, 0.2, 1.5}, 0).empty());
+}
+
+/// A thin sheet of such a material has no inside.
+TEST(HiddenBoundaries, AnOpenSheetOfDiffuseTransmissionIsNoVolume) {
+    SceneMaker maker;
+    Material sheet = milky(0);
+    sheet.metallic_roughness->thickness.value = 0;
+    maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(sheet));
+    maker.add(rectangle({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
+    const Scene scene = maker.compile();
+    EXPECT_FALSE(ScatteringMedia(scene).has_open_boundaries());
+    for (const std::string& renderer : kRenderers) {
+        EXPECT_NEAR(mean_of(picture_of(scene, renderer, 2, 4)).r, 1, 1e-9) << renderer;
     }
 }
 

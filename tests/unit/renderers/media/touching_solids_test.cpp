@@ -1,0 +1,162 @@
+// Solids that share a face, named in either order, without exact optics.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "alhazen/renderers/core/renderer.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::matt;
+using testing::rectangle;
+using testing::SceneMaker;
+using testing::shining;
+
+enum class Kt { AtSurfaces, ByDistance };
+
+/// A block, from above down, of thickness 1.
+struct Block {
+    Material material;
+    double top = 0;
+};
+
+Material glass(double index, double absorption) {
+    Material m;
+    m.index.value = index;
+    m.dielectric = Dielectric{{absorption, 2 * absorption, 0}};
+    return m;
+}
+Material tinted(double index, double kt) {
+    Material m;
+    m.index.value = index;
+    m.transmissive.color = {kt, 1, kt};
+    return m;
+}
+
+/// Two blocks above a wall at z = -3 that shines, or is `wall`.
+SceneMaker two_blocks(const Block& a, const Block& b, bool reversed, Kt kt,
+                      const Material& wall = shining({1, 1, 1})) {
+    SceneMaker maker;
+    ShadingConventions& c = maker.description().conventions.shading;
+    c.max_depth = 10;
+    if (kt == Kt::ByDistance) {
+        c.refraction_tint = ShadingConventions::RefractionTint::PerDistance;
+        c.shadow_tint = ShadingConventions::ShadowTint::PerDistance;
+    }
+    const auto add = [&](const Block& block) {
+        maker.add(BoxShape{{-4, -4, block.top - 1}, {4, 4, block.top}},
+                  maker.material(block.material));
+    };
+    add(reversed ? b : a);
+    add(reversed ? a : b);
+    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), maker.material(wall));
+    return maker;
+}
+
+/// What a thin cone or a ray along `direction` from above (0, 0, 1) sees.
+Rgb color_of(SceneMaker& maker, const std::string& renderer, const Vec3& direction = {0, 0, -1}) {
+    maker.description().cameras[0].camera =
+        look_along(Vec3{0.0137, 0.0071, 1} - 4.0 * direction, direction, {0.1, 1, 0}, 1e-6, 1.0);
+    const Scene scene = maker.compile();
+    const RenderJob job{
+        .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
+    Film film(1, 1, {0, 0, 1, 1});
+    (void)make_renderer(renderer)->render(job, film);
+    return film.at(0, 0);
+}
+
+const char* const kRenderers[] = {"whitted", "distributed", "cone_tracing"};
+
+TEST(TouchingSolids, TwoAbsorbersLetThroughTheirProduct) {
+    const Block above{glass(1, 0.5), 1}, below{glass(1, 0.2), 0};
+    for (const bool reversed : {false, true}) {
+        for (const std::string renderer :
+             {"whitted", "distributed", "cone_tracing", "path_tracing"}) {
+            SceneMaker maker = two_blocks(above, below, reversed, Kt::AtSurfaces);
+            const Rgb found = color_of(maker, renderer);
+            EXPECT_NEAR(found.r, std::exp(-0.7), 1e-6) << renderer << reversed;
+            EXPECT_NEAR(found.g, std::exp(-1.4), 1e-6) << renderer << reversed;
+            EXPECT_NEAR(found.b, 1, 1e-6) << renderer << reversed;
+        }
+    }
+}
+
+TEST(TouchingSolids, KtByDistanceActsInEachOverItsWay) {
+    for (const double index : {1.0, 1.5}) {
+        const Block above{tinted(index, 0.5), 1}, below{tinted(1.2 * index, 0.8), 0};
+        for (const bool reversed : {false, true}) {
+            for (const std::string renderer : kRenderers) {
+                SceneMaker maker = two_blocks(above, below, reversed, Kt::ByDistance);
+                EXPECT_NEAR(color_of(maker, renderer).r, 0.4, 1e-6) << renderer << reversed;
+            }
+        }
+    }
+}
+
+TEST(TouchingSolids, KtAtSurfacesActsAtEachFace) {
+    const Block above{tinted(1, 0.5), 1}, below{tinted(1, 0.8), 0};
+    for (const bool reversed : {false, true}) {
+        for (const std::string renderer : kRenderers) {
+            SceneMaker maker = two_blocks(above, below, reversed, Kt::AtSurfaces);
+            EXPECT_NEAR(color_of(maker, renderer).r, 0.16, 1e-6) << renderer << reversed;
+        }
+    }
+}
+
+/// The boundary between them reflects as that of one against the other.
+TEST(TouchingSolids, GlassesReflectByTheirIndices) {
+    const Block above{glass(1.5, 0.5), 1}, below{glass(1.7, 0.2), 0};
+    const auto passes = [](double m, double n) { return 1.0 - std::pow((m - n) / (m + n), 2.0); };
+    const double straight = passes(1, 1.5) * passes(1.5, 1.7) * passes(1.7, 1) * std::exp(-0.7);
+    for (const bool reversed : {false, true}) {
+        for (const std::string renderer : kRenderers) {
+            SceneMaker maker = two_blocks(above, below, reversed, Kt::AtSurfaces);
+            maker.description().conventions.shading.trace_reflections = false;
+            EXPECT_NEAR(color_of(maker, renderer).r, straight, 1e-6) << renderer << reversed;
+        }
+    }
+}
+
+/// Oblique rays bend as at one boundary: the wall has the light of the place that they meet.
+TEST(TouchingSolids, ObliqueRaysBendAsInExactOptics) {
+    const Vec3 direction = normalize(Vec3{0.8, 0.1, -0.4});
+    const Block above{glass(1.9, 0.5), 1}, below{glass(1.1, 0.2), 0};
+    const auto lit = [&](bool reversed) {
+        SceneMaker maker =
+            two_blocks(above, below, reversed, Kt::AtSurfaces, matt({0.5, 0.5, 0.5}));
+        maker.light(
+            PointLight{.position = {1, 0, -2.5}, .color = {10, 10, 10}, .attenuation = {0, 0, 1}});
+        maker.description().conventions.shading.trace_reflections = false;
+        return maker;
+    };
+    for (const bool reversed : {false, true}) {
+        SceneMaker maker = lit(reversed);
+        const double plain = color_of(maker, "whitted", direction).b;
+        const double cone = color_of(maker, "cone_tracing", direction).b;
+        const double exact = color_of(maker, "whitted:fresnel=on,beer=on", direction).b;
+        EXPECT_GT(exact, 0.01);
+        // Schlick's formula and Fresnel's equations differ.
+        EXPECT_NEAR(plain, exact, 0.1 * exact) << reversed;
+        EXPECT_NEAR(cone, plain, 1e-4 * plain) << reversed;
+        SceneMaker other = lit(!reversed);
+        EXPECT_EQ(color_of(other, "whitted", direction), color_of(maker, "whitted", direction));
+    }
+}
+
+TEST(TouchingSolids, ABlockOnAnOpaqueOneShowsIt) {
+    for (const bool reversed : {false, true}) {
+        for (const std::string renderer : kRenderers) {
+            SceneMaker maker = two_blocks({glass(1, 0.5), 1}, {shining({0.5, 0.5, 0.5}), 0},
+                                          reversed, Kt::AtSurfaces);
+            EXPECT_NEAR(color_of(maker, renderer).r, 0.5 * std::exp(-0.5), 1e-6)
+                << renderer << reversed;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
