@@ -1,6 +1,7 @@
 #pragma once
 /// The surface at the nearest hit: computed once per ray.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -105,25 +106,31 @@ struct HitParts {
 
 /// The ray that leaves the surface along `direction`, up to `t_max`. It starts outside the error
 /// bound of the point, on the side the direction points to, and excludes t = 0, so that it does not
-/// hit the surface again.
+/// hit the surface again, nor others that are placed there.
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
 /// Differs: the margin is 32 times the bound, which contains the rounding of the next intersection
-/// test (docs/design/secondary_rays.md).
+/// test, and no less than 4 times the bound along any axis (docs/design/secondary_rays.md).
 [[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 
 /// `leaving_ray` for many rays of one surface.
 class LeavingRays {
   public:
-    /// The margin, relative to the bound.
+    /// The margin, relative to the bound along the normal.
     static constexpr double kErrorsAway = 32.0;
+    /// The least bound along the normal, relative to the largest one along an axis. The turned
+    /// faces of other parts at the same place round relative to all coordinates, also where those
+    /// along the normal are 0.
+    static constexpr double kLeastPart = 0x1p-3;
     /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
     static constexpr double kBeyondZero = 0x1p-500;
 
     /// The distance of the starts from the point, along the normal.
     [[nodiscard]] static double margin(const ShapeSurface& surface) {
-        return kErrorsAway * dot(abs(surface.normal), surface.error);
+        const Vec3& e = surface.error;
+        const double least = kLeastPart * std::max(std::max(e.x, e.y), e.z);
+        return kErrorsAway * std::max(dot(abs(surface.normal), e), least);
     }
     // Implicit, so that a surface may be passed.
     LeavingRays(const ShapeSurface& surface) : normal_(surface.normal) {

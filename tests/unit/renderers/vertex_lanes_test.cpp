@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/primitives/surface.h"
 #include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/path_tracing/plain_meshes.h"
 #include "alhazen/renderers/path_tracing/rough_lanes.h"
 #include "alhazen/sampling/random.h"
 #include "alhazen/shading/lights/environment.h"
 #include "alhazen/shading/microfacets/local_directions.h"
+#include "alhazen/shapes/meshes/triangle_surface.h"
 #include "alhazen/simd/targets.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
@@ -159,6 +161,49 @@ TEST(VertexLanes, PicturesHaveTheBitsOfVerticesOneByOne) {
                     ASSERT_EQ(found.at(x, y), expected.at(x, y))
                         << renderer << " " << target << " " << x << " " << y;
                 }
+            }
+        }
+    }
+}
+
+/// Triangles in and near planes of coordinates, near and far from the origin.
+TEST(VertexLanes, RaysStartWhereThoseOfOneSurfaceDo) {
+    Random random(6);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        for (int round = 0; round < 300; ++round) {
+            VertexLanes lanes;
+            LightCallLanes lights;
+            std::vector<ShapeSurface> surfaces;
+            for (std::size_t lane = 0; lane < VertexLanes::kMost; ++lane) {
+                TriangleMesh mesh;
+                const int axis = random.below(4);
+                const Vec3 place = random.in_cube(random.log_uniform(1e-3, 1e6));
+                for (int i = 0; i < 3; ++i) {
+                    Vec3 p = place + random.in_cube(1);
+                    if (axis < 3) p[axis] = round % 2 == 0 ? 0.0 : 1e-6;
+                    mesh.positions.push_back(p);
+                }
+                mesh.triangles = {{0, 1, 2}};
+                ShapeHit hit;
+                hit.u = random.uniform(0, 0.5);
+                hit.v = random.uniform(0, 0.5);
+                ShapeSurface surface;
+                const double reach = set_triangle_surface(mesh, 0, hit, surface);
+                const double rounding = kNextTestRounding * reach;
+                surface.error += Vec3{rounding, rounding, rounding};
+                surfaces.push_back(surface);
+                lanes.triangles.set(lane, mesh, 0, hit, false);
+                const Vec3 ray = random.unit_vector();
+                for (int k = 0; k < 3; ++k) lanes.ray[k][lane] = ray[k];
+            }
+            lanes.find_frames(VertexLanes::kMost, lights);
+            for (std::size_t lane = 0; lane < VertexLanes::kMost; ++lane) {
+                const auto of = [&](const VertexLanes::Vectors& v) {
+                    return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+                };
+                ASSERT_EQ(of(lanes.origin), leaving_ray(surfaces[lane], of(lanes.geometric)).origin)
+                    << target << " " << round << " " << lane;
             }
         }
     }

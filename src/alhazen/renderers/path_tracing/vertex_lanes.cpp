@@ -69,8 +69,9 @@ HWY_INLINE void find_frames(VertexLanes& v, LightCallLanes& lights) {
     store_vectors(z, lights.at.normal);
     // LeavingRays.
     const Vectors point = load_vectors<N>(v.triangles.point);
-    const D margin =
-        D(LeavingRays::kErrorsAway) * dot(abs(normal), load_vectors<N>(v.triangles.error));
+    const Vectors error = load_vectors<N>(v.triangles.error);
+    const D least = D(LeavingRays::kLeastPart) * max_lanes(max_lanes(error.x, error.y), error.z);
+    const D margin = D(LeavingRays::kErrorsAway) * max_lanes(dot(abs(normal), error), least);
     const D along = select_lanes(entering, margin, -margin);
     store_vectors(point + along * normal, v.origin);
     store_vectors(point, lights.at.point);
