@@ -192,7 +192,8 @@ class CommandLine(CommandLineCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stderr, "alhazen:2:1: polygon 'bow tie': 1 crossing")
         with open(scene, "w") as file:
-            file.write("alhazen 1\npolygon { loops = [[%s]] }\n" % corners.replace("1, 1, 0", "1, 1, 0.9"))
+            bent = corners.replace("1, 1, 0", "1, 1, 0.9")
+            file.write("alhazen 1\npolygon { loops = [[%s], [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0)]] }\n" % bent)
         result = run("vector", scene, "-o", self.path("a.svg"))
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertRegex(result.stderr, "off its plane.*line 2")

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
@@ -159,7 +160,7 @@ void append_face(std::span<const Vec3> corners, const UvOf& uv_of, TriangleMesh&
         loop.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.positions.push_back(p);
     }
-    const Vec3 normal = newell_normal(mesh.positions, loop);
+    const Vec3 normal = plane_normal(mesh.positions, loop);
     const double size = length(normal);
     const Vec3 unit = size > 0.0 ? normal / size : Vec3{0, 0, 1};
     for (std::size_t k = first; k < mesh.positions.size(); ++k) {
@@ -210,7 +211,7 @@ std::string append(const Polyhedron& shape, double, std::uint64_t, TriangleMesh&
         // Faces may be given in either order.
         std::vector<std::uint32_t> loop(face.size());
         std::iota(loop.begin(), loop.end(), 0u);
-        if (dot(newell_normal(face, loop), shape.faces[part].normal) < 0.0) {
+        if (dot(plane_normal(face, loop), shape.faces[part].normal) < 0.0) {
             std::reverse(face.begin(), face.end());
         }
         append_face(

@@ -8,6 +8,7 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/solids/collapsed_edges.h"
 #include "alhazen/solids/solid_coordinates.h"
 
 namespace alhazen {
@@ -92,7 +93,7 @@ Vec3 feature_point(std::span<const Crossing> crossings, const Vec3& lo, const Ve
         sum.z_axis = sum.z_axis + share * c.normal.z * c.normal;
     }
     const Mat3 solve = inverse(sum);
-    for (int round = 0; round < 2; ++round) {
+    for (int round = 0; round < 4; ++round) {
         Vec3 offset;
         for (const Crossing& c : crossings) {
             offset = offset + share * dot(c.normal, c.point - point) * c.normal;
@@ -128,6 +129,7 @@ class Lattice {
     /// Creates the triangles. `certain`: cells are so small that no triangle needs a test.
     Outcome make(bool certain, std::uint64_t max_triangles) {
         if (!certain && !sees_all()) return Outcome::TooCoarse;
+        beyond_ = certain ? 0.0 : kBeyond;
         for (slab_ = 0; slab_ + 1 < count_[0]; ++slab_) {
             set_layer(slab_ + 1, layer_[1]);
             const std::size_t first = mesh_.triangles.size();
@@ -274,8 +276,10 @@ class Lattice {
                 if (is_in(from) != is_in(to)) cell_crossings_.push_back(crossing(from, axis));
             }
         }
+        const double beyond = beyond_ * cell_, size = cell_ + beyond;
         const Vec3 lo = node(at[0], at[1], at[2]);
-        const Vec3 point = feature_point(cell_crossings_, lo, lo + Vec3{cell_, cell_, cell_});
+        const Vec3 point = feature_point(cell_crossings_, lo - Vec3{beyond, beyond, beyond},
+                                         lo + Vec3{size, size, size});
         Vec3 sum;
         for (const Crossing& c : cell_crossings_) sum = sum + c.normal;
         const Vec3 normal = unit_or(sum, cell_crossings_[0].normal);
@@ -392,8 +396,12 @@ class Lattice {
     /// Cosine of the largest angle of normals in a cell without an edge.
     static constexpr double kSmooth = 0.8;
 
+    /// How far from its cell a vertex may be, in cells, where triangles are tested: an edge of the
+    /// surface beside a cell is met.
+    static constexpr double kBeyond = 0.5;
+
     SurfaceLine line_;
-    double cell_, tolerance_;
+    double cell_, tolerance_, beyond_ = 0;
     TriangleMesh& mesh_;
     std::optional<SolidCoordinates> coordinates_;
     Vec3 origin_;
@@ -415,7 +423,8 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
     const Box3 box = solid.box();
     if (box.empty()) return true;
     constexpr double kFirstCells = 24;
-    const double smallest = tolerance / std::sqrt(3.0) * (1.0 - 1e-9);
+    // Of the tolerance half is for the lattice and half for the merging.
+    const double smallest = 0.5 * tolerance / std::sqrt(3.0) * (1.0 - 1e-9);
     double cell = std::max(max_component(box.size()) / kFirstCells, smallest);
     for (;;) {
         const bool certain = cell <= smallest;
@@ -432,6 +441,8 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
         mesh = TriangleMesh{};
         cell = std::max(0.5 * cell, smallest);
     }
+    constexpr double kCoordinates = 1.0 / 512;
+    collapse_edges(mesh, 0.5 * tolerance, kCoordinates);
     return true;
 }
 

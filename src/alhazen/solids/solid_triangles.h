@@ -5,18 +5,20 @@
 /// vertex per lattice cell that the surface passes through, nearest to the tangent planes at its
 /// crossings with the cell's edges; one quadrangle around each edge that the surface crosses.
 /// Differs: no function is sampled. The spans of lines along z tell which lattice points are
-/// inside; crossings and normals are exact. All cells have one size, which is halved until the
-/// tolerance holds.
+/// inside; crossings and normals are exact. All cells have one size, which is halved until half the
+/// tolerance holds; triangles are then merged within the other half (collapsed_edges.h).
 /// Conventions: the frame of the solid's scene; counterclockwise from outside; closed, with the
 /// normals of the exact surface. All points of a face are within a cell's diagonal of the surface,
-/// so cells whose diagonal is the tolerance need no test. Larger cells are accepted if lines
-/// through the corners, the edges and the middle of each triangle meet the surface within half the
-/// tolerance, and no part or gap thicker than the tolerance lies between lattice points. Parts
-/// thinner than the tolerance may be missing. Texture coordinates are those of the shape whose
-/// surface is at the triangle, also of the operands of a CSG object: vertices at which they change
-/// by a jump (between shapes, faces and at seams) are several. A triangle across a seam goes on
-/// beyond 1; around a pole they are wrong in single triangles.
-/// Complexity: O((size / cell)^3) lattice points, O((size / cell)^2) lines and triangles.
+/// so cells whose diagonal is half the tolerance need no test. Larger cells, where a vertex may be
+/// half a cell beside its own to be on an edge of the surface, are accepted if lines through the
+/// corners, the edges and the middle of each triangle meet the surface within half the tolerance,
+/// and no part or gap thicker than the tolerance lies between lattice points. Parts thinner than
+/// the tolerance may be missing. Texture coordinates are those of the shape whose surface is at the
+/// triangle, also of the operands of a CSG object: vertices at which they change by a jump (between
+/// shapes, faces and at seams) are several. A triangle across a seam goes on beyond 1; around a
+/// pole they are wrong in single triangles.
+/// Complexity: O((size / cell)^3) lattice points, O((size / cell)^2) lines and triangles before
+/// they are merged.
 
 #include <cstdint>
 
@@ -26,8 +28,8 @@
 namespace alhazen {
 
 /// Creates a mesh with the materials of a CSG object at its vertices (the same for the three
-/// vertices of a triangle). Returns false if there would be more than `max_triangles`. `with_uvs`
-/// false: texture coordinates are zero, and there are fewer vertices.
+/// vertices of a triangle). Returns false if there would be more than `max_triangles` before they
+/// are merged. `with_uvs` false: texture coordinates are zero, and there are fewer vertices.
 /// Preconditions: the box of the solid is bounded; tolerance > 0.
 [[nodiscard]] bool make_solid_triangles(const IsolatedSolid& solid, double tolerance,
                                         std::uint64_t max_triangles, TriangleMesh& mesh,

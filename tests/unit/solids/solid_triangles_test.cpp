@@ -9,6 +9,8 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
+#include "mesh_distance.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 
@@ -118,15 +120,12 @@ TEST(SolidTriangles, HaveTheTextureCoordinatesOfTheOperandsIfWanted) {
     ASSERT_TRUE(make_solid_triangles(solid, 0.05, 2'000'000, plain));
     ASSERT_TRUE(make_solid_triangles(solid, 0.05, 2'000'000, mesh, true));
     for (const Vec2& uv : plain.uvs) EXPECT_EQ(uv, (Vec2{0, 0}));
-    ASSERT_EQ(mesh.triangles.size(), plain.triangles.size());
     ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
     int tops = 0, bores = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto& t = mesh.triangles[i];
+    for (const auto& t : mesh.triangles) {
         Vec3 normal;
         Vec2 lo{9, 9}, hi{-9, -9};
         for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(mesh.positions[t[k]], plain.positions[plain.triangles[i][k]]);
             const Vec2 uv = mesh.uvs[t[k]];
             lo = {std::min(lo.x, uv.x), std::min(lo.y, uv.y)};
             hi = {std::max(hi.x, uv.x), std::max(hi.y, uv.y)};
@@ -154,8 +153,8 @@ TEST(SolidTriangles, HaveTheTextureCoordinatesOfTheOperandsIfWanted) {
             EXPECT_LT(hi.x - lo.x, 0.2);
         }
     }
-    EXPECT_GT(tops, 300);
-    EXPECT_GT(bores, 300);
+    EXPECT_GT(tops, 30);
+    EXPECT_GT(bores, 60);
 }
 
 TEST(SolidTriangles, ThinPartsAreFoundWhateverTheirDirection) {
@@ -176,6 +175,73 @@ TEST(SolidTriangles, ThinPartsAreFoundWhateverTheirDirection) {
         for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(box.hi[k], k == axis ? 0.4 : 1.0, 0.02) << axis;
         }
+    }
+}
+
+/// A box without another one, turned by `turn`.
+ObjectIndex add_cut_box(SceneMaker& maker, const Affine& turn) {
+    const ObjectIndex cut = maker.object("cut");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, {}, cut);
+    maker.add(BoxShape{.lo = {0, 0, 0}, .hi = {2, 2, 2}}, MaterialId{0}, turn, cut);
+    (void)maker.material({});
+    maker.add(cut);
+    return cut;
+}
+
+TEST(SolidTriangles, OfFlatFacesAreFew) {
+    for (const double tolerance : {0.1, 0.01, 0.002}) {
+        SceneMaker maker;
+        add_cut_box(maker, {});
+        const TriangleMesh mesh = mesh_of(maker, tolerance);
+        // Three faces of six corners, six squares.
+        EXPECT_EQ(mesh.triangles.size(), 24u);
+        EXPECT_NEAR(volume_of(mesh), 7, 24 * 0.1 * tolerance);
+    }
+    SceneMaker maker;
+    add_cut_box(maker, Affine::rotate({1, 2, 3}, 0.7));
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    const TriangleMesh mesh = mesh_of(maker, 0.01);
+    EXPECT_LT(mesh.triangles.size(), 300u);
+    EXPECT_LE(largest_distance(solid, mesh, 0.01), 0.01);
+}
+
+TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
+    Random random(12);
+    for (int round = 0; round < 4; ++round) {
+        SceneMaker maker;
+        const ObjectIndex cut = maker.object("random");
+        maker.description().objects.back().combine =
+            round % 3 == 0 ? Combine::Union : Combine::Difference;
+        const auto place = [&](double far) {
+            return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
+                   Affine::rotate(random.unit_vector(), random.uniform(0, 3));
+        };
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.1), cut);
+        maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.4}, MaterialId{0},
+                  place(0.3), cut);
+        maker.add(BoxShape{.lo = {0, 0, 0}, .hi = {1, 2, 3}}, MaterialId{0}, place(0.5), cut);
+        maker.add(Sphere{.radius = 0.6}, MaterialId{0}, place(1), cut);
+        (void)maker.material({});
+        maker.add(cut);
+        const SolidList solids(maker.compile().aggregate);
+        const IsolatedSolid solid(solids, SolidId{0});
+        const double tolerance = 0.06;
+        TriangleMesh mesh;
+        ASSERT_TRUE(make_solid_triangles(solid, tolerance, 2'000'000, mesh));
+        EXPECT_TRUE(mesh_edges(mesh).oriented()) << round;
+        EXPECT_LE(largest_distance(solid, mesh, tolerance), tolerance) << round;
+        // Points of the surface; parts thinner than the tolerance may be missing.
+        double most = 0;
+        for (int i = 0; i < 200; ++i) {
+            std::vector<IsolatedSolid::SurfacePoint> found;
+            solid.crossings({2 * random.unit_vector(), random.unit_vector(), -10, 10}, found);
+            for (const auto& p : found) {
+                most = std::max(most, testing::distance(p.point, mesh));
+            }
+        }
+        EXPECT_LE(most, tolerance) << round << " " << mesh.triangles.size();
     }
 }
 

@@ -6,24 +6,12 @@
 
 #include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/geometry/polygon/free_diagonals.h"
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 
 namespace alhazen {
 
 namespace {
-
-/// True if the vertices are coplanar to the six digits of the files; only then a polygon becomes a
-/// shape.
-bool is_planar(const std::vector<Vec3>& vertices, const Vec3& unit_normal) {
-    double reach = 0.0;
-    double off = 0.0;
-    for (const Vec3& p : vertices) {
-        const Vec3 d = p - vertices.front();
-        reach = std::max(reach, max_component(abs(d)));
-        off = std::max(off, std::abs(dot(unit_normal, d)));
-    }
-    return off <= 1e-4 * reach;
-}
 
 /// True if some three of the vertices, the first among them, span an area.
 bool has_area(const std::vector<Vec3>& vertices) {
@@ -138,17 +126,16 @@ void NffBuilder::add_polygon(const std::vector<Vec3>& vertices, const std::vecto
         return;
     }
     if (vertices.size() == 3 || !normals.empty()) return add_triangles(vertices, normals, where);
-    std::vector<std::uint32_t> loop(vertices.size());
-    std::iota(loop.begin(), loop.end(), 0u);
-    const Vec3 normal = newell_normal(vertices, loop);
-    if (!(length_squared(normal) > 0.0)) {
+    const std::vector<std::uint32_t> loop_ends{std::uint32_t(vertices.size())};
+    const Vec3 normal = plane_normal_of_loops(vertices, loop_ends);
+    if (!(length_squared(normal) > 0.0) || edges_cancel(vertices, loop_ends)) {
         ++degenerate_;
         return;
     }
-    if (!is_planar(vertices, normalize(normal))) return add_triangles(vertices, normals, where);
+    if (!is_flat(vertices, normalize(normal))) return add_triangles(vertices, normals, where);
     Polygon polygon;
     polygon.vertices = vertices;
-    polygon.loop_ends = {std::uint32_t(vertices.size())};
+    polygon.loop_ends = loop_ends;
     add_shape(std::move(polygon), where);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "alhazen/geometry/polygon/ear_clipper.h"
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/sweep_triangulation.h"
 #include "alhazen/math/orientation.h"
 
@@ -51,7 +52,7 @@ std::vector<Vec3> scaled_to_one(std::span<const Vec3> positions,
 
 /// The polygon projected to the plane, counter-clockwise, with unchanged coordinates.
 std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon) {
-    const Vec3 normal = newell_normal(positions, polygon);
+    const Vec3 normal = plane_normal(positions, polygon);
     const int drop = dominant_axis(normal);
     const int a = (drop + 1) % 3;
     const int b = (drop + 2) % 3;
@@ -103,15 +104,6 @@ bool is_convex(const std::vector<Vec2>& flat) {
 }
 
 }  // namespace
-
-Vec3 newell_normal(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon) {
-    const Vec3 origin = positions[polygon[0]];
-    Vec3 sum;
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-        sum += cross(positions[polygon[i]] - origin, positions[polygon[i + 1]] - origin);
-    }
-    return sum;
-}
 
 void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<std::array<std::uint32_t, 3>>& triangles) {

@@ -5,12 +5,12 @@
 /// the sweep of sweep_triangulation.h.
 /// Differs: a convex polygon becomes a fan; a large polygon that the sweep rejects, because it
 /// touches or crosses itself, is triangulated by ear clipping.
-/// Conventions: the polygon is projected along the longest axis of its Newell normal; triangles
-/// keep its orientation. n vertices always give n - 2 triangles, even if the polygon touches or
-/// crosses itself, so that edges shared with neighbours stay shared. A polygon with a non-finite
-/// coordinate becomes a fan.
-/// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 1024
-/// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no shared state.
+/// Conventions: the polygon is projected along the longest axis of its normal (polygon_plane.h);
+/// triangles keep its orientation. n vertices always give n - 2 triangles, even if the polygon
+/// touches or crosses itself, so that edges shared with neighbours stay shared. A polygon with a
+/// non-finite coordinate becomes a fan. Complexity and threads: O(n) for convex polygons, O(n log
+/// n) for simple ones of more than 1024 vertices, a bounded number of steps per vertex for all
+/// others (ear_clipper.h); no shared state.
 
 #include <array>
 #include <cstdint>
@@ -20,10 +20,6 @@
 #include "alhazen/math/vec.h"
 
 namespace alhazen {
-
-/// Sum of the cross products of successive vertices: twice the area along the polygon's normal.
-[[nodiscard]] Vec3 newell_normal(std::span<const Vec3> positions,
-                                 std::span<const std::uint32_t> polygon);
 
 /// Appends the triangles of `polygon`, a loop of at least 3 indices into `positions`. Precondition:
 /// all indices are in range.

@@ -16,6 +16,42 @@ using testing::Imported;
 using testing::material_of;
 using testing::shape_of;
 
+TEST(NativeImporter, ReadsPolygonsWithCornersOffThePlaneAsTriangles) {
+    const auto bent = [](const char* off) {
+        return import_native("polygon \"p\" { vertices = [(0,0,0), (2,0,0), (2,2," +
+                             std::string(off) + "), (0,2,0)] }");
+    };
+    // A bow tie, whose plane is not Newell's.
+    const Imported tie =
+        import_native("polygon { vertices = [(0,0,0), (2,2,0), (2,0,1e-9), (0,2,0)] }");
+    EXPECT_EQ(tie.messages(), "");
+    EXPECT_NEAR(std::abs(shape_of<Polygon>(tie, 0).vertices[1].x), 2, 0);
+    const Imported flat = bent("1e-4");
+    EXPECT_EQ(flat.messages(), "");
+    EXPECT_EQ(shape_of<Polygon>(flat, 0).vertices.size(), 4u);
+    const Imported cut = bent("0.4");
+    EXPECT_NE(
+        cut.messages().find("warning: polygon: its corners are not in a plane, but up to 0.0"),
+        std::string::npos)
+        << cut.messages();
+    EXPECT_NE(cut.messages().find("read as triangles"), std::string::npos);
+    const Part& part = cut.scene.objects[0].parts.at(0);
+    EXPECT_EQ(part.name, "p");
+    ASSERT_TRUE(std::holds_alternative<MeshIndex>(part.what));
+    const TriangleMesh& mesh = *cut.scene.meshes.at(0).mesh;
+    EXPECT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.positions[2], (Vec3{2, 2, 0.4}));
+    EXPECT_EQ(mesh.uvs[0], (Vec2{0, 0}));
+    EXPECT_GT(mesh.uvs[2].x, 1.9);
+    EXPECT_GT(mesh.uvs[2].y, 1.9);
+    // With a hole it stays what it is.
+    const Imported loops = import_native(
+        "polygon { loops = [[(0,0,0), (4,0,0), (4,4,1), (0,4,0)], [(1,1,0), (2,1,0), (1,2,0)]] }");
+    EXPECT_NE(loops.messages().find("mean plane"), std::string::npos);
+    EXPECT_EQ(shape_of<Polygon>(loops, 0).loop_ends.size(), 2u);
+}
+
 TEST(NativeImporter, ReadsEveryFieldOfEveryShape) {
     const Imported i = import_native(
         "sphere { center = (1,2,3); radius = 4 }"

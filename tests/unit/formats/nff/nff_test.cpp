@@ -133,6 +133,21 @@ TEST(Nff, PolygonsThatAreBentAreCutIntoTriangles) {
     EXPECT_TRUE(mentions(found, "1 primitive without extent is ignored"));
 }
 
+TEST(Nff, BowTiesArePolygonsWhoseHalvesDoNotCancel) {
+    for (const char* off : {"0", "1e-9", "1e-5"}) {
+        Diagnostics found;
+        const SceneDescription scene = import_text(
+            kView + kFill + "p 4\n0 0 0\n1 1 0\n1 0 " + off + "\n0 1 0\n", "a.nff", found);
+        EXPECT_EQ(count(scene), (Counts{0, 0, 0, 1, 0, 0})) << off;
+        EXPECT_EQ(text_of(found), "");
+    }
+    // A line there and back has no area.
+    Diagnostics found;
+    const SceneDescription scene =
+        import_text(kView + kFill + "p 4\n0 0 0\n1 1 0\n1 0 0\n1 1 0\n", "a.nff", found);
+    EXPECT_EQ(count(scene), Counts{});
+}
+
 TEST(Nff, PolygonsAndPatchesWithoutAreaAreLeftOut) {
     Diagnostics found;
     const SceneDescription scene =

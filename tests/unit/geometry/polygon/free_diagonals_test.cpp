@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

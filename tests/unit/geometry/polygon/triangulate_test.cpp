@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+#include "alhazen/geometry/polygon/polygon_plane.h"
+
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
@@ -159,6 +161,36 @@ TEST(Triangulate, AConvexPolygonOfManyVerticesIsAFanAndADentIsCutAround) {
     EXPECT_EQ(cut(points).back(), (std::array<std::uint32_t, 3>{0, 4095, 4096}));
     points[10] = {0, 0, 0};
     expect_tiling(points, cut(points));
+}
+
+/// Corners off the plane turn Newell's sum of loops that cancel into any direction.
+TEST(Triangulate, LoopsThatCancelAreCutInTheirPlane) {
+    // Two squares of opposite orientation that meet in the first vertex.
+    const std::vector<Vec3> squares = {{0, 0, 0}, {1, 0, 0},  {1, 1, 0},   {0, 1, 0},
+                                       {0, 0, 0}, {0, -1, 0}, {-1, -1, 0}, {-1, 0, 0}};
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double off : {0.0, 1e-15, 1e-12, 1e-9, 1e-6}) {
+            for (std::size_t moved = 0; moved < squares.size(); ++moved) {
+                std::vector<Vec3> points;
+                for (const Vec3& p : squares) {
+                    Vec3 turned;
+                    turned[axis] = &p == &squares[moved] ? off : 0.0;
+                    turned[(axis + 1) % 3] = p.x;
+                    turned[(axis + 2) % 3] = p.y;
+                    points.push_back(turned);
+                }
+                const auto loop = loop_of(points.size());
+                const Vec3 normal = plane_normal(points, loop);
+                EXPECT_GT(std::abs(normal[axis]), 0.99 * length(normal)) << axis << " " << off;
+                Triangles triangles;
+                triangulate(points, loop, triangles);
+                double area = 0;
+                for (const auto& t : triangles) area += 0.5 * length(newell_normal(points, t));
+                // Six triangles of half a unit square each.
+                EXPECT_NEAR(area, 3, 1e-5) << axis << " " << off << " " << moved;
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -41,6 +41,19 @@ double largest_distance(const BezierPiece& piece, const TriangleMesh& mesh, Rand
     return most;
 }
 
+TEST(PatchTessellation, APolygonWhoseHalvesCancelHasTheNormalOfItsPlane) {
+    // Two squares of opposite orientation that meet in a vertex; a corner is off the plane.
+    for (const double off : {0.0, 1e-12, 1e-7}) {
+        Polygon squares;
+        squares.vertices = {{0, 0, 0}, {1, 0, 0},  {1, 1, off}, {0, 1, 0},
+                            {0, 0, 0}, {0, -1, 0}, {-1, -1, 0}, {-1, 0, 0}};
+        squares.prepare();
+        TriangleMesh mesh;
+        ASSERT_EQ(append_triangles(AnyShape{squares}, 0.1, kLimit, mesh), "");
+        for (const Vec3& n : mesh.normals) EXPECT_NEAR(std::abs(n.z), 1.0, 1e-6) << off;
+    }
+}
+
 TEST(PatchTessellation, APolygonThatCrossesItselfIsFilledOddEven) {
     // Two triangles of unequal size: Newell's normal is that of the larger.
     Polygon bow;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "alhazen/formats/native/read/native_bent_polygon.h"
 #include "alhazen/formats/native/read/native_cameras.h"
 #include "alhazen/formats/native/read/native_height_picture.h"
 #include "alhazen/formats/native/read/native_include.h"
@@ -36,6 +37,7 @@ void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& s
     read_native_height_picture(reader, context, scope, shape);
     const bool complete = read_native_patch_file(reader, context, scope, block.location, shape);
     part.what = std::move(shape);
+    replace_bent_polygon(context, part);
     part.material = read_part_material(reader, context, scope);
     reader.finish();
     context.count_elements(1, block.location);

@@ -1,0 +1,57 @@
+#include "alhazen/formats/native/read/native_bent_polygon.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "alhazen/base/number_text.h"
+#include "alhazen/geometry/polygon/polygon_plane.h"
+#include "alhazen/geometry/polygon/triangulate.h"
+
+namespace alhazen {
+
+namespace {
+
+/// True if the numbers can be computed with; others are reported by the validation.
+bool is_complete(const Polygon& polygon) {
+    return polygon.vertices.size() > 3 &&
+           std::all_of(polygon.vertices.begin(), polygon.vertices.end(), is_finite);
+}
+
+std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesh->positions = polygon.vertices;
+    const Vec3 v_axis = cross(polygon.normal, polygon.u_axis);
+    for (const Vec3& p : polygon.vertices) {
+        const Vec3 offset = p - polygon.vertices.front();
+        mesh->uvs.push_back({dot(offset, polygon.u_axis), dot(offset, v_axis)});
+    }
+    std::vector<std::uint32_t> loop(polygon.vertices.size());
+    std::iota(loop.begin(), loop.end(), 0u);
+    triangulate(mesh->positions, loop, mesh->triangles);
+    return mesh;
+}
+
+}  // namespace
+
+void replace_bent_polygon(NativeContext& context, Part& part) {
+    const auto* shape = std::get_if<AnyShape>(&part.what);
+    const auto* given = shape != nullptr ? std::get_if<Polygon>(shape) : nullptr;
+    if (given == nullptr || !is_complete(*given)) return;
+    Polygon polygon = *given;
+    polygon.prepare();
+    if (is_flat(polygon.vertices, polygon.normal)) return;
+    const bool one_loop = polygon.loop_ends.size() == 1;
+    context.diagnostics.warning(
+        part.location, "polygon: its corners are not in a plane, but up to " +
+                           shortest(polygon.off_plane) + " off: it is " +
+                           (one_loop ? "read as triangles"
+                                     : "met in their mean plane, and as a light not sampled"));
+    if (!one_loop) return;
+    auto mesh = triangles_of(polygon);
+    context.count_elements(mesh->positions.size() + mesh->triangles.size(), part.location);
+    context.scene.meshes.push_back({part.name, std::move(mesh), part.location, {}});
+    part.what = static_cast<MeshIndex>(context.scene.meshes.size() - 1);
+}
+
+}  // namespace alhazen

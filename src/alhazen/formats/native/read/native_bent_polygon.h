@@ -1,0 +1,13 @@
+#pragma once
+/// Polygons of native scenes whose corners are not in a plane.
+
+#include "alhazen/formats/native/read/native_context.h"
+
+namespace alhazen {
+
+/// Replaces a polygon of one loop whose corners are off its plane (`is_flat`) by a mesh of its
+/// triangles, with the polygon's texture coordinates; a polygon of several loops stays as it is.
+/// Warns in both cases.
+void replace_bent_polygon(NativeContext& context, Part& part);
+
+}  // namespace alhazen
