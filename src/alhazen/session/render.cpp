@@ -101,6 +101,27 @@ int samples_of_cone(const RenderOptions& options) {
     return rounds ? std::min(options.samples_per_pixel, kLeast) : options.samples_per_pixel;
 }
 
+bool is_black(const ColorInput& color) {
+    return color.texture == kNoTexture && color.color.is_black();
+}
+
+/// True if light that passes the surface spreads.
+bool blurs_transmission(const Material& m) {
+    if (m.conductor) return false;
+    if (m.dielectric) return m.roughness.value > 0.0;
+    if (const auto& p = m.metallic_roughness) {
+        return !p->unlit && p->transmission.value > 0.0 && p->roughness.value > 0.0;
+    }
+    return m.roughness.value > 0.0 && !is_black(m.transmissive);
+}
+
+/// True if mirror images in the surface spread. Those of physical materials fade with the
+/// roughness in all renderers.
+bool blurs_reflection(const Material& m) {
+    const bool physical = m.conductor || m.dielectric || m.metallic_roughness;
+    return !physical && m.roughness.value > 0.0 && !is_black(m.reflective);
+}
+
 /// The scene with the overrides of the command line; shares all geometry.
 Scene adjusted(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     Scene result = scene;
@@ -289,17 +310,16 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
-    const auto blurs = [](const Material& m) {
-        const auto& p = m.metallic_roughness;
-        return p && !p->unlit && p->transmission.value > 0.0 && p->roughness.value > 0.0;
+    const auto tell_rough = [&](const char* what, bool (*is_rough)(const Material&)) {
+        const auto rough = std::ranges::count_if(scene.materials, is_rough);
+        if (rough == 0 || renderer.lights_have_extent()) return;
+        notes.push_back(
+            fmt::format("renderer '{}' does not blur {} rough surfaces ({} material{}); "
+                        "'distributed', 'cone_tracing' and the renderers of light transport do",
+                        options.renderer, what, rough, rough == 1 ? "" : "s"));
     };
-    if (const auto rough = std::ranges::count_if(scene.materials, blurs);
-        rough > 0 && !renderer.lights_have_extent()) {
-        notes.push_back(fmt::format(
-            "renderer '{}' leaves transmission through rough surfaces sharp ({} material{}); "
-            "'distributed', 'cone_tracing' and the renderers of light transport blur it",
-            options.renderer, rough, rough == 1 ? "" : "s"));
-    }
+    tell_rough("transmission through", blurs_transmission);
+    tell_rough("reflection at", blurs_reflection);
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
     if (!renderer.lights_have_extent() &&
         std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {

@@ -7,6 +7,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/seen_lights.h"
@@ -367,13 +368,40 @@ TEST(Simplified, NamesRenderersThatLeaveRoughTransmissionSharp) {
     };
     const auto said = notes(0.3, "whitted");
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_NE(said[0].find("transmission through rough surfaces sharp (1 material)"),
+    EXPECT_NE(said[0].find("does not blur transmission through rough surfaces (1 material)"),
               std::string::npos)
         << said[0];
     EXPECT_TRUE(notes(0.0, "whitted").empty());
     for (const char* blurs : {"path_tracing", "vcm", "distributed", "cone_tracing"}) {
         EXPECT_TRUE(notes(0.3, blurs).empty()) << blurs;
     }
+}
+
+TEST(Simplified, CountsRoughDielectricsAndCoefficients) {
+    const auto notes = [](const Material& material) {
+        SceneMaker maker;
+        maker.add(Sphere{}, maker.material(material));
+        const Scene scene = maker.compile();
+        return simplified(scene, {}, *make_renderer("whitted"));
+    };
+    Material glass;
+    glass.index.value = 1.5;
+    glass.dielectric.emplace();
+    EXPECT_TRUE(notes(glass).empty());
+    glass.roughness.value = 0.4;
+    ASSERT_EQ(notes(glass).size(), 1u);
+    EXPECT_NE(notes(glass)[0].find("transmission through rough"), std::string::npos);
+    Material coefficients;
+    coefficients.roughness.value = 0.5;
+    EXPECT_TRUE(notes(coefficients).empty());
+    coefficients.transmissive.color = {0.9, 0.9, 0.9};
+    ASSERT_EQ(notes(coefficients).size(), 1u);
+    EXPECT_NE(notes(coefficients)[0].find("transmission through rough"), std::string::npos);
+    coefficients.reflective.color = {0.1, 0.1, 0.1};
+    ASSERT_EQ(notes(coefficients).size(), 2u);
+    EXPECT_NE(notes(coefficients)[1].find("reflection at rough"), std::string::npos);
+    coefficients.roughness.value = 0.0;
+    EXPECT_TRUE(notes(coefficients).empty());
 }
 
 }  // namespace
