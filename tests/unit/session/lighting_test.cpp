@@ -9,10 +9,12 @@
 #include "alhazen/base/file.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/environment_option.h"
+#include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/shading/lights/environment.h"
 #include "support/scene_maker.h"
+#include "support/scratch_folder.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -402,6 +404,27 @@ TEST(Simplified, CountsRoughDielectricsAndCoefficients) {
     EXPECT_NE(notes(coefficients)[1].find("reflection at rough"), std::string::npos);
     coefficients.roughness.value = 0.0;
     EXPECT_TRUE(notes(coefficients).empty());
+}
+
+TEST(Simplified, MotionIsLeftOutWithoutAnAggregateToo) {
+    const testing::ScratchFolder folder;
+    const auto path = folder.write("moving.alhazen", std::string(R"(alhazen 1
+perspective_camera "c" { eye = (0, 0, 5); look_at = (0, 0, 0); up = (0, 1, 0); fov_deg = 40 }
+rectangle {
+    corner = (-1, -1, 0); edge_u = (2, 0, 0); edge_v = (0, 2, 0)
+    motion = [(0, translate(0, 0, 0)), (1, translate(1, 0, 0))]
+}
+)"));
+    for (const char* name : {"lane_carpenter", "clark", "beam_tracing", "cone_tracing"}) {
+        LoadOptions load_options;
+        load_options.with_aggregate = false;
+        const LoadedScene loaded = load(path, load_options);
+        RenderOptions options;
+        options.renderer = name;
+        const auto notes = simplified(loaded.scene, options, *make_renderer(name));
+        ASSERT_EQ(notes.size(), 1u) << name;
+        EXPECT_NE(notes[0].find("the moment at which the shutter opens"), std::string::npos);
+    }
 }
 
 }  // namespace
