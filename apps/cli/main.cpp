@@ -11,6 +11,8 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/heap.h"
@@ -67,6 +69,26 @@ void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
     for (const Row& row : kRows) row.add(app, exit_status);
 }
 
+/// The arguments, the last one first, without the name of the program. `help COMMAND` stands for
+/// `COMMAND --help`.
+std::vector<std::string> arguments_from_last(int argc, char** argv) {
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (!arguments.empty() && arguments.front() == "help") {
+        arguments.erase(arguments.begin());
+        arguments.emplace_back("--help");
+    }
+    std::reverse(arguments.begin(), arguments.end());
+    return arguments;
+}
+
+/// The message for a wrong command line. That of CLI11 for a repeated option counts values.
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+    std::string text = CLI::FailureMessage::simple(app, error);
+    const std::size_t begin = text.find(": At Most 1 required but received ");
+    if (begin == std::string::npos) return text;
+    return text.replace(begin, text.find('\n', begin) - begin, ": was given more than once");
+}
+
 int run(int argc, char** argv) {
     CLI::App app{
         "Alhazen traces rays through exact solids and meshes.\n"
@@ -81,9 +103,11 @@ int run(int argc, char** argv) {
         "not finite;\n"
         "75 stopped by a signal, what was done is written.");
     int exit_status = kDone;
-    add_commands(app, argc > 1 ? argv[1] : "", exit_status);
+    std::vector<std::string> arguments = arguments_from_last(argc, argv);
+    add_commands(app, arguments.empty() ? "" : arguments.back(), exit_status);
+    app.failure_message(failure_message);
     try {
-        app.parse(argc, argv);
+        app.parse(std::move(arguments));
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/csg/csg_evaluator.h"
@@ -273,6 +274,12 @@ std::optional<Shutter> SceneArguments::shutter_option() const {
                     "them");
     }
     return Shutter{shutter[0], shutter[1]};
+}
+
+bool SceneArguments::names_accelerator() const {
+    const BuildOptions usual, build = build_options();
+    return accelerator != kDefaultAccelerator || build.quality != usual.quality ||
+           build.width != usual.width || build.leaves != usual.leaves;
 }
 
 BuildOptions SceneArguments::build_options() const {

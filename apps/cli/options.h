@@ -74,6 +74,8 @@ struct SceneArguments {
     void read_time(const std::string& text);
     /// True if the command chooses the quality itself.
     [[nodiscard]] bool chooses_build() const { return takes_auto_build && build_quality == "auto"; }
+    /// True if an accelerator or an option of its build is given, other than the default.
+    [[nodiscard]] bool names_accelerator() const;
     /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;
     [[nodiscard]] LoadOptions load_options() const;

@@ -267,6 +267,12 @@ int run(const RenderArguments& args) {
     progress.finish();
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
+    if (!needs_aggregate && args.scene.names_accelerator() && !args.quiet) {
+        tell(
+            "renderer '{}' has no accelerator: --accelerator, --bound, --build, --width and "
+            "--compact have no effect\n",
+            options.renderer);
+    }
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     ViewRequest wishes{.environment = args.environment,

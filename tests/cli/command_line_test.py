@@ -27,6 +27,35 @@ class CommandLine(CommandLineCase):
             self.assertTrue(result.stdout)
             self.assertEqual(result.stderr, "")
 
+    def test_help_is_a_command_too(self):
+        for command in [], ["render"]:
+            result = run("help", *command)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertEqual(result.stdout, run(*command, "--help").stdout)
+        self.assertRegex(run("help", "paint").stderr, "'paint'.*render, convert")
+
+    def test_an_option_given_twice_is_said_to_be(self):
+        result = self.render("-t", "1", "-t", "2")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--threads: was given more than once\n", result.stderr)
+
+    def test_the_limit_of_the_terms_of_a_polynomial_is_told(self):
+        start = "alhazen 1\nalgebraic { clip_box = ((-1, -1, -1), (1, 1, 1)); expression = "
+        self.assertEqual(run("info", self.write("f.alhazen", start + '"1e149*(x^2+y^2-1)" }\n')).returncode, 0)
+        result = run("info", self.write("g.alhazen", start + '"1e150*(x^2+y^2-1)" }\n'))
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("must be below 1e150 within clip_box", result.stderr)
+
+    def test_a_renderer_without_an_accelerator_says_that_options_of_one_have_no_effect(self):
+        scene = self.write("flat.alhazen", "alhazen 1\nrectangle { corner = (0, 0, 0); edge_u = (1, 0, 0); edge_v = (0, 1, 0) }\n")
+        start = ["render", scene, "-o", self.path("out.png"), "--size", "4x4", "--renderer", "lane_carpenter"]
+        for options in ["--accelerator", "octree"], ["--build", "high"], ["--width", "4"], ["--compact"]:
+            result = run(*start, *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("'lane_carpenter' has no accelerator", result.stderr)
+            self.assertNotIn("no accelerator", run(*start, *options, "-q").stderr)
+        self.assertNotIn("no accelerator", run(*start).stderr)
+
     def test_compare_keeps_what_it_has_measured(self):
         report = self.path("report.json")
         options = ["--accelerators", "kd_tree", "--no-tuning", "--size", "24x18", "--time-limit", "0.05", "-q"]

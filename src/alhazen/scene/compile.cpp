@@ -4,6 +4,7 @@
 #include "alhazen/scene/compile_materials.h"
 #include "alhazen/scene/geometry_compiler.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/scene_model/scene_motion.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
@@ -100,6 +101,7 @@ Scene compile_without_geometry(const SceneDescription& description) {
     scene.has_scattering =
         std::any_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return !m.scattering.coefficient.is_black(); });
+    scene.has_motion = geometry_moves(description);
     scene.census.texture_bytes = texture_bytes(scene.textures);
     scene.census.scene_bytes = scene.census.texture_bytes;
     return scene;

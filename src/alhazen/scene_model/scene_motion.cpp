@@ -20,15 +20,20 @@ void open_shutter(SceneDescription& description, const Shutter& shutter) {
     }
 }
 
-bool has_motion(const SceneDescription& description) {
-    const auto moves = [](const auto& thing) { return !thing.keys.empty(); };
+bool geometry_moves(const SceneDescription& description) {
+    const auto moves = [](const MeshDescription& mesh) { return !mesh.keys.empty(); };
     const auto part_moves = [](const Part& part) { return part.motion != nullptr; };
     return std::any_of(description.meshes.begin(), description.meshes.end(), moves) ||
-           std::any_of(description.cameras.begin(), description.cameras.end(), moves) ||
            std::any_of(description.objects.begin(), description.objects.end(),
                        [&](const ObjectDescription& object) {
                            return std::any_of(object.parts.begin(), object.parts.end(), part_moves);
                        });
+}
+
+bool has_motion(const SceneDescription& description) {
+    return geometry_moves(description) ||
+           std::any_of(description.cameras.begin(), description.cameras.end(),
+                       [](const CameraDescription& camera) { return !camera.keys.empty(); });
 }
 
 }  // namespace alhazen

@@ -43,6 +43,8 @@ struct SceneDescription;
 
 /// Sets the shutter, and puts moving parts and meshes where they are as it opens.
 void open_shutter(SceneDescription& description, const Shutter& shutter);
+/// False if parts and meshes are the same at every time.
+[[nodiscard]] bool geometry_moves(const SceneDescription& description);
 /// False if the scene is the same at every time.
 [[nodiscard]] bool has_motion(const SceneDescription& description);
 

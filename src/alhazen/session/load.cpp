@@ -1,9 +1,14 @@
 #include "alhazen/session/load.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <system_error>
 #include <utility>
 
+#include "alhazen/accel/accelerator_names.h"
+#include "alhazen/accel/core/accelerator_settings.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/parallel/thread_start.h"
@@ -40,8 +45,33 @@ void run_build_phase(LoadedScene& loaded, const LoadOptions& options, Work&& wor
     report_phase(options, "build", 1);
 }
 
+/// Warns of options of the wide BVH for a scene that has none.
+void warn_of_build_options(LoadedScene& loaded, const CompileOptions& compile) {
+    const BuildOptions& build = compile.build;
+    const BuildOptions usual;
+    if (build.quality == usual.quality && build.leaves == usual.leaves &&
+        build.width == usual.width) {
+        return;
+    }
+    const auto is_wide = [](const std::string& accelerator) {
+        return parse_accelerator(accelerator).name == kDefaultAccelerator;
+    };
+    const std::vector<ObjectDescription>& objects = loaded.description.objects;
+    if (is_wide(compile.accelerator) ||
+        std::any_of(objects.begin(), objects.end(), [&](const ObjectDescription& object) {
+            return !object.accelerator.empty() && is_wide(object.accelerator);
+        })) {
+        return;
+    }
+    loaded.diagnostics.warning(
+        {}, fmt::format("accelerator '{}' is built without --build, --width and --compact: they "
+                        "are for '{}'",
+                        parse_accelerator(compile.accelerator).name, kDefaultAccelerator));
+}
+
 void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
     CompileOptions compile = options.compile;
+    warn_of_build_options(loaded, compile);
     if (options.choose_quality) compile.build.quality = options.choose_quality(loaded);
     loaded.quality = compile.build.quality;
     if (options.keep_meshes) {

@@ -9,6 +9,7 @@
 
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/beam_tracing/pixel_quadrature.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/stopwatch.h"
@@ -87,11 +88,38 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
 }
 
 /// Samples per pixel for the width of texture lookups. With rounds the number is not known in
-/// advance; at most 16 are assumed.
+/// advance; at most 16 are assumed. Samples that --antialias integrates over the pixel: those of
+/// the smallest parts for `exact`; for `whitted` the four corners that every pixel has.
 int samples_of_cone(const RenderOptions& options) {
     constexpr int kLeast = 16;
+    constexpr int kCorners = 4;
+    if (options.antialias && options.antialias->exact) {
+        return 1 << (2 * PixelQuadrature::kDeepest);
+    }
+    if (options.antialias && options.antialias->step == 0) return kCorners;
     const bool rounds = options.sampling && options.sampling->has_rounds();
     return rounds ? std::min(options.samples_per_pixel, kLeast) : options.samples_per_pixel;
+}
+
+bool is_black(const ColorInput& color) {
+    return color.texture == kNoTexture && color.color.is_black();
+}
+
+/// True if light that passes the surface spreads.
+bool blurs_transmission(const Material& m) {
+    if (m.conductor) return false;
+    if (m.dielectric) return m.roughness.value > 0.0;
+    if (const auto& p = m.metallic_roughness) {
+        return !p->unlit && p->transmission.value > 0.0 && p->roughness.value > 0.0;
+    }
+    return m.roughness.value > 0.0 && !is_black(m.transmissive);
+}
+
+/// True if mirror images in the surface spread. Those of physical materials fade with the
+/// roughness in all renderers.
+bool blurs_reflection(const Material& m) {
+    const bool physical = m.conductor || m.dielectric || m.metallic_roughness;
+    return !physical && m.roughness.value > 0.0 && !is_black(m.reflective);
 }
 
 /// The scene with the overrides of the command line; shares all geometry.
@@ -282,17 +310,16 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
-    const auto blurs = [](const Material& m) {
-        const auto& p = m.metallic_roughness;
-        return p && !p->unlit && p->transmission.value > 0.0 && p->roughness.value > 0.0;
+    const auto tell_rough = [&](const char* what, bool (*is_rough)(const Material&)) {
+        const auto rough = std::ranges::count_if(scene.materials, is_rough);
+        if (rough == 0 || renderer.lights_have_extent()) return;
+        notes.push_back(
+            fmt::format("renderer '{}' does not blur {} rough surfaces ({} material{}); "
+                        "'distributed', 'cone_tracing' and the renderers of light transport do",
+                        options.renderer, what, rough, rough == 1 ? "" : "s"));
     };
-    if (const auto rough = std::ranges::count_if(scene.materials, blurs);
-        rough > 0 && !renderer.lights_have_extent()) {
-        notes.push_back(fmt::format(
-            "renderer '{}' leaves transmission through rough surfaces sharp ({} material{}); "
-            "'distributed', 'cone_tracing' and the renderers of light transport blur it",
-            options.renderer, rough, rough == 1 ? "" : "s"));
-    }
+    tell_rough("transmission through", blurs_transmission);
+    tell_rough("reflection at", blurs_reflection);
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
     if (!renderer.lights_have_extent() &&
         std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {

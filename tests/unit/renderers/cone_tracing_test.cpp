@@ -364,6 +364,7 @@ TEST(ConeTracing, OtherShapesAreRefusedByName) {
     SceneMaker maker;
     maker.add(Torus{}, maker.material(glowing({1, 1, 1})));
     maker.add(Cylinder{}, maker.material(glowing({1, 1, 1})));
+    maker.add(Sphere{}, maker.material(glowing({1, 1, 1})), Affine::scale({1, 2, 1}));
     const Scene scene = maker.compile();
     Film film(1, 1, {0, 0, 1, 1});
     const RenderJob job{
@@ -375,6 +376,7 @@ TEST(ConeTracing, OtherShapesAreRefusedByName) {
         const std::string what = error.what();
         EXPECT_NE(what.find("torus"), std::string::npos) << what;
         EXPECT_NE(what.find("cylinder"), std::string::npos) << what;
+        EXPECT_NE(what.find("stretched sphere"), std::string::npos) << what;
         EXPECT_EQ(error.kind(), ErrorKind::Usage);
     }
 }

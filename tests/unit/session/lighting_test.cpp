@@ -7,11 +7,14 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/environment_option.h"
+#include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/shading/lights/environment.h"
 #include "support/scene_maker.h"
+#include "support/scratch_folder.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -367,12 +370,60 @@ TEST(Simplified, NamesRenderersThatLeaveRoughTransmissionSharp) {
     };
     const auto said = notes(0.3, "whitted");
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_NE(said[0].find("transmission through rough surfaces sharp (1 material)"),
+    EXPECT_NE(said[0].find("does not blur transmission through rough surfaces (1 material)"),
               std::string::npos)
         << said[0];
     EXPECT_TRUE(notes(0.0, "whitted").empty());
     for (const char* blurs : {"path_tracing", "vcm", "distributed", "cone_tracing"}) {
         EXPECT_TRUE(notes(0.3, blurs).empty()) << blurs;
+    }
+}
+
+TEST(Simplified, CountsRoughDielectricsAndCoefficients) {
+    const auto notes = [](const Material& material) {
+        SceneMaker maker;
+        maker.add(Sphere{}, maker.material(material));
+        const Scene scene = maker.compile();
+        return simplified(scene, {}, *make_renderer("whitted"));
+    };
+    Material glass;
+    glass.index.value = 1.5;
+    glass.dielectric.emplace();
+    EXPECT_TRUE(notes(glass).empty());
+    glass.roughness.value = 0.4;
+    ASSERT_EQ(notes(glass).size(), 1u);
+    EXPECT_NE(notes(glass)[0].find("transmission through rough"), std::string::npos);
+    Material coefficients;
+    coefficients.roughness.value = 0.5;
+    EXPECT_TRUE(notes(coefficients).empty());
+    coefficients.transmissive.color = {0.9, 0.9, 0.9};
+    ASSERT_EQ(notes(coefficients).size(), 1u);
+    EXPECT_NE(notes(coefficients)[0].find("transmission through rough"), std::string::npos);
+    coefficients.reflective.color = {0.1, 0.1, 0.1};
+    ASSERT_EQ(notes(coefficients).size(), 2u);
+    EXPECT_NE(notes(coefficients)[1].find("reflection at rough"), std::string::npos);
+    coefficients.roughness.value = 0.0;
+    EXPECT_TRUE(notes(coefficients).empty());
+}
+
+TEST(Simplified, MotionIsLeftOutWithoutAnAggregateToo) {
+    const testing::ScratchFolder folder;
+    const auto path = folder.write("moving.alhazen", std::string(R"(alhazen 1
+perspective_camera "c" { eye = (0, 0, 5); look_at = (0, 0, 0); up = (0, 1, 0); fov_deg = 40 }
+rectangle {
+    corner = (-1, -1, 0); edge_u = (2, 0, 0); edge_v = (0, 2, 0)
+    motion = [(0, translate(0, 0, 0)), (1, translate(1, 0, 0))]
+}
+)"));
+    for (const char* name : {"lane_carpenter", "clark", "beam_tracing", "cone_tracing"}) {
+        LoadOptions load_options;
+        load_options.with_aggregate = false;
+        const LoadedScene loaded = load(path, load_options);
+        RenderOptions options;
+        options.renderer = name;
+        const auto notes = simplified(loaded.scene, options, *make_renderer(name));
+        ASSERT_EQ(notes.size(), 1u) << name;
+        EXPECT_NE(notes[0].find("the moment at which the shutter opens"), std::string::npos);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/session/statistics.h"
+#include "support/scratch_folder.h"
 #include "support/test_data.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -51,6 +52,32 @@ TEST(Load, TheAggregateIsBuiltWhenItIsAskedFor) {
     EXPECT_EQ(loaded.scene.aggregate.get(), built);
     EXPECT_EQ(render(loaded, render_options).film.to_image().samples,
               render(whole, render_options).film.to_image().samples);
+}
+
+TEST(Load, WarnsOfOptionsOfTheWideBvhInScenesWithoutOne) {
+    const testing::ScratchFolder folder;
+    const std::string ball = "alhazen 1\nsphere { radius = 1 }\n";
+    const auto plain = folder.write("plain.alhazen", ball);
+    const auto own = folder.write(
+        "own.alhazen", ball +
+                           "object \"o\" { accelerator = \"wide_bvh\"; sphere { radius = 1 } }\n"
+                           "instance \"o\" { }\n");
+    const auto warnings = [](const std::filesystem::path& path, const char* accelerator,
+                             const BuildOptions& build) {
+        LoadOptions options;
+        options.compile.accelerator = accelerator;
+        options.compile.build = build;
+        return load(path, options).diagnostics.warning_count();
+    };
+    for (const BuildOptions& build :
+         {BuildOptions{.quality = BuildQuality::High}, BuildOptions{.leaves = Leaves::Indices},
+          BuildOptions{.width = 4}}) {
+        EXPECT_EQ(warnings(plain, "wide_bvh", build), 0u);
+        EXPECT_EQ(warnings(plain, "list", build), 1u);
+        EXPECT_EQ(warnings(plain, "kd_tree:max_depth=9", build), 1u);
+        EXPECT_EQ(warnings(own, "list", build), 0u);
+    }
+    EXPECT_EQ(warnings(plain, "list", {}), 0u);
 }
 
 TEST(Load, StrictTurnsWarningsIntoErrors) {

@@ -207,6 +207,7 @@ class ConeGatherer {
                 if constexpr (requires { add_kind(s, source); }) {
                     if (add_kind(s, source)) return "";
                 }
+                if constexpr (std::is_same_v<S, Sphere>) return "stretched sphere";
                 return S::kName;
             },
             *shape);

@@ -77,8 +77,11 @@ void Algebraic::validate(const FileLocation& where, Diagnostics& diagnostics) co
     try {
         const PolynomialExpression parsed(expression);
         if (parsed.degree() < 1) checks.fail("expression: x, y and z do not occur in it");
+        // Larger values overflow when they are squared.
         if (checks.ok() && !(parsed.magnitude(reach_of(clip_box)) < 1e150)) {
-            checks.fail("expression: its terms overflow within clip_box");
+            checks.fail(
+                "expression: the sum of its terms without signs must be below 1e150 within "
+                "clip_box");
         }
     } catch (const Error& error) {
         checks.fail("expression: " + std::string(error.what()));
