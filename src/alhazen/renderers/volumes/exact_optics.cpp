@@ -197,11 +197,16 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
         const Face own = face_of(surface, material, entering);
         return sides_of_all(&own, around, others);
     }
-    if (material.thin && !others.empty()) {
-        const Sides all = sides_of_all(nullptr, around, others);
-        if (all.here == all.beyond) return all;
-    }
     Sides sides{media_[around].index, material.index, around};
+    if (material.thin && !others.empty()) {
+        // The sheet reflects by its own index; its faces change the medium.
+        const Sides all = sides_of_all(nullptr, around, others);
+        if (all.here == all.beyond) {
+            sides.behind = all.behind;
+            sides.joined = all.joined;
+            sides.before = all.before;
+        }
+    }
     if (bounds_a_volume(material)) {
         const Medium inside = medium_of(surface, material);
         if (is_open(material.physical, surface.part)) {

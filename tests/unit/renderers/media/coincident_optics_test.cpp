@@ -178,8 +178,6 @@ TEST(CoincidentOptics, ShadowRaysCrossTouchingFacesAsOne) {
     }
 }
 
-/// The volume entered last is the innermost: none of the indices changes where the other is left.
-/// From below it is the other one, with the same reflections.
 /// A thin sheet that passes a share of the light straight.
 Material clear_sheet(double share) {
     Material m;
@@ -198,12 +196,15 @@ TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
         do {
             SceneMaker maker = above_a_light();
             const double index = halves ? 1.5 : 1.0;
+            // One that does not reflect: exact optics turn it to the index around it.
+            Material clear = clear_sheet(0.5);
+            clear.index.value = index;
             for (const int i : order) {
                 if (i == 0) maker.add(box(0, 1), maker.material(physical({index, 1.0})));
                 if (i == 1) maker.add(box(1, 2), maker.material(physical({index, 2.0})));
                 if (i == 2) {
                     maker.add(Rectangle{{-2, -2, 1}, {4, 0, 0}, {0, 4, 0}},
-                              maker.material(clear_sheet(0.5)));
+                              maker.material(clear));
                 }
             }
             const Scene scene = maker.compile();
@@ -220,6 +221,33 @@ TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
     }
 }
 
+TEST(CoincidentOptics, ASheetOnAFaceThatDoesNotRefractReflects) {
+    const Material volume = physical({1.0, 1.0});
+    Material mirror = clear_sheet(1.0);
+    mirror.index.value = 1.5;
+    for (const double z : {0.0, 1.0}) {
+        for (const bool first : {false, true}) {
+            SceneMaker maker = above_a_light();
+            maker.add(Rectangle{{-50, -50, 40}, {100, 0, 0}, {0, 100, 0}},
+                      maker.material(glowing({10, 10, 10})));
+            const Rectangle sheet{{-2, -2, z}, {4, 0, 0}, {0, 4, 0}};
+            if (first) maker.add(sheet, maker.material(mirror));
+            maker.add(box(0, 1), maker.material(volume));
+            if (!first) maker.add(sheet, maker.material(mirror));
+            const Scene scene = maker.compile();
+            const double down = std::exp(-1.0), up = z > 0.0 ? 1.0 : std::exp(-2.0);
+            const double light = 0.96 * down + 0.04 * 10.0 * up;
+            for (const char* renderer : {"whitted", "distributed"}) {
+                SCOPED_TRACE(renderer);
+                const Rgb c = testing::picture_of(scene, renderer, 1, 4).at(0, 0);
+                expect_near(c, {light, light, light}, 1e-6);
+            }
+        }
+    }
+}
+
+/// The volume entered last is the innermost: none of the indices changes where the other is left.
+/// From below it is the other one, with the same reflections.
 TEST(CoincidentOptics, OverlappingVolumesAreLeftInAnyOrder) {
     const Layer above{1.5, 0, 2}, below{1.7, 0, 2};
     for (const auto material : {&physical, &by_kt}) {
