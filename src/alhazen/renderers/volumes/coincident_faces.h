@@ -12,6 +12,7 @@
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
 /// at a boundary that refracts, the one that was hit is met alone.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,35 @@ struct OtherFace {
 };
 /// Faces that are entered come first, the outermost volume first.
 using OtherFaces = std::vector<OtherFace>;
+
+/// The faces at one place of a ray that have been crossed together. Sheets and open surfaces among
+/// them, which are crossed by themselves, are left out.
+class CrossedFaces {
+  public:
+    /// For the start of a ray.
+    void clear() {
+        volumes_.clear();
+        end_ = 0.0;
+    }
+    /// True if the face of that volume (volume_number) at the distance was crossed with another.
+    [[nodiscard]] bool has(std::uint64_t volume, double t) const {
+        return t <= end_ && std::find(volumes_.begin(), volumes_.end(), volume) != volumes_.end();
+    }
+    [[nodiscard]] bool may_have(double t) const { return t <= end_ && !volumes_.empty(); }
+    /// Adds the faces that are crossed with a surface at the distance `t`, of reach `reach`
+    /// (CoincidentSurfaces).
+    void add(const OtherFaces& others, double t, double reach) {
+        if (t > end_) volumes_.clear();
+        for (const OtherFace& other : others) volumes_.push_back(other.inside.part);
+        end_ = std::max(end_, t + 2.0 * reach);
+    }
+    /// Adds the second crossing of the wall of a solid that was added last.
+    void add_wall(std::uint64_t volume) { volumes_.push_back(volume); }
+
+  private:
+    std::vector<std::uint64_t> volumes_;
+    double end_ = 0.0;  ///< distance
+};
 
 class CoincidentFaces {
   public:

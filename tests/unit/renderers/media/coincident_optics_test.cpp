@@ -189,6 +189,24 @@ Material clear_sheet(double share) {
     return m;
 }
 
+/// A sheet of the shape of a polygon: not hit before a box, as a rectangle is.
+Polygon square(double z) {
+    return {.vertices = {{-3, -3, z}, {3, -3, z}, {3, 3, z}, {-3, 3, z}}};
+}
+
+/// `box(bottom, top, 90)` of triangles.
+TriangleMesh mesh_block(double bottom, double top) {
+    TriangleMesh mesh;
+    for (const double z : {bottom, top}) {
+        for (const double y : {-90.0, 90.0}) {
+            mesh.positions.insert(mesh.positions.end(), {{-90, y, z}, {90, y, z}});
+        }
+    }
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
 TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
     // Volumes of the index of the air, and a block of one index in two halves.
     for (const bool halves : {false, true}) {
@@ -241,6 +259,48 @@ TEST(CoincidentOptics, ASheetOnAFaceThatDoesNotRefractReflects) {
                 SCOPED_TRACE(renderer);
                 const Rgb c = testing::picture_of(scene, renderer, 1, 4).at(0, 0);
                 expect_near(c, {light, light, light}, 1e-6);
+            }
+        }
+    }
+}
+
+/// A box and a mesh of the same shape are hit at distances that differ by rounding, the sheet
+/// between them.
+TEST(CoincidentOptics, ShadowRaysCrossFacesOnceAroundASheet) {
+    const auto add_block = [](SceneMaker& maker, bool mesh, double bottom, double top,
+                              double absorption) {
+        const MaterialId id = maker.material(physical({1.0, absorption}));
+        if (!mesh) return maker.add(box(bottom, top, 90), id);
+        maker.add(maker.mesh(mesh_block(bottom, top)), id);
+    };
+    for (const double z : {0.3, 0.5, 1.0}) {
+        for (const bool mesh : {false, true}) {
+            for (const bool nested : {false, true}) {
+                for (const bool open : {false, true}) {
+                    SCOPED_TRACE(::testing::Message() << z << mesh << nested << open);
+                    SceneMaker maker = testing::looking_down();
+                    maker.description().conventions.shading.optics = {true, true};
+                    maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = kWhite});
+                    maker.add(box(-12, -10, 99), maker.material(testing::matt(kWhite)));
+                    maker.description().cameras[0].camera =
+                        look_along({0.01, 0.02, -5}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
+                    add_block(maker, mesh, nested ? z : z - 1.0, nested ? z + 2.0 : z, 0.5);
+                    add_block(maker, !mesh, z, z + 1.0, 1.0);
+                    Material sheet = clear_sheet(0.5);
+                    if (open) {
+                        sheet = testing::matt({0, 0, 0});
+                        sheet.alpha_mode = AlphaMode::Blend;
+                        sheet.alpha.value = 0.5;
+                    }
+                    maker.add(square(z), maker.material(sheet));
+                    const Scene scene = maker.compile();
+                    const double t = 0.5 * std::exp(-1.5);
+                    for (const char* renderer : {"whitted", "path_tracing"}) {
+                        SCOPED_TRACE(renderer);
+                        const Rgb c = testing::picture_of(scene, renderer, 1, 1).at(0, 0);
+                        expect_near(c, {t, t, t}, 1e-6);
+                    }
+                }
             }
         }
     }
