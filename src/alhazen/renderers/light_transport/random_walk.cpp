@@ -81,21 +81,11 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (stops_here(front, arrival, draws)) {
-            faces_.find(point_, ray.direction, arrival, mask());
-            if (faces_.opaque()) {
-                hit_ = *faces_.opaque();
-                set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
-                                  point_);
-            } else if (faces_.sheet()) {
-                opening_.set(scene_, point_, front.media, front.waves, false, &bsdfs_,
-                             &faces_.others());
-                if (opening_.is_null_boundary()) {
-                    hit_ = *faces_.sheet();
-                    set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
-                                      point_);
-                    faces_.find(point_, ray.direction, arrival, mask());
-                }
-            }
+            const auto met = faces_.find(
+                point_,
+                {ray.direction, arrival, mask(), front.media, front.waves, &bsdfs_, &constant_},
+                point_);
+            if (met) hit_ = *met;
             return Meets::Surface;
         }
         if (passed_) return Meets::Nothing;

@@ -121,9 +121,10 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         set_bsdf(scene, surface, place, known);
     }
     set_coat(scene, point, tangent);
-    null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
-            material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
-            bsdf().refracts_alone() && may_be_null_boundary(scene, surface);
+    only_changes_media_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
+                          material.coverage >= 1.0 && material.emission.is_black() &&
+                          !material.unlit && bsdf().refracts_alone();
+    null_ = only_changes_media_ && may_be_null_boundary(scene, surface);
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;

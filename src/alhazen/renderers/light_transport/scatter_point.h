@@ -78,6 +78,8 @@ class ScatterPoint {
     /// its weight without a random choice; none at other surfaces and if one of the two is missing.
     [[nodiscard]] std::optional<std::array<Scattered, 2>> both_ways(Transport transport) const;
 
+    /// True if the surface has no other effect than to bound volumes, of the same index.
+    [[nodiscard]] bool only_changes_media() const { return only_changes_media_; }
     [[nodiscard]] bool is_null_boundary() const { return null_; }
     /// The straight transmittance of a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
@@ -177,7 +179,7 @@ class ScatterPoint {
     Medium inside_;  ///< of the volume that the surface bounds
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
-    bool null_ = false;
+    bool only_changes_media_ = false, null_ = false;
     bool media_known_ = false;  ///< the media are stated by a solid
     bool enters_volume_ = true, is_wall_ = false;
 };

@@ -84,7 +84,7 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
     const auto id = static_cast<std::size_t>(point.surface.materials[0]);
     if (faces_.sheet() && sides.here == sides.beyond &&
-        may_be_null_boundary(scene_.materials[id], scene_.conventions.shading.air_index)) {
+        may_only_bound_volume(scene_.materials[id])) {
         return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.sheet()), arrival,
                                  {.optics = this}, point);
     }
