@@ -106,7 +106,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         others_.clear();
     }
     const Spectrum all = etas(scene, point, media, waves);
-    if (point.coat_is_tilted) known = nullptr;
+    if (point.coat_is_tilted || (thin_ && !others_.empty())) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
     BsdfPlace place{.eta = all.a,
                     .from_inside = !entering_,
@@ -120,6 +120,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         place.etas = nullptr;
         set_bsdf(scene, surface, place, known);
     }
+    tint_by_faces(waves, own_);
     set_coat(scene, point, tangent);
     only_changes_media_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
                           material.coverage >= 1.0 && material.emission.is_black() &&
@@ -136,6 +137,13 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         from_behind_ = *shared;
     } else {
         make_bsdf(scene, surface, place, from_behind_.emplace());
+        tint_by_faces(waves, *from_behind_);
+    }
+}
+
+void ScatterPoint::tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const {
+    for (const OtherFace& other : others_) {
+        if (other.tints) bsdf.tint_transmission(waves.reflectance(other.kt));
     }
 }
 

@@ -164,6 +164,9 @@ class ScatterPoint {
         return local.z * dot(direction, geometric_) > 0.0;
     }
 
+    /// Tints the light through a thin sheet by the faces at its place.
+    void tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const;
+
     Bsdf own_;
     const Bsdf* shared_ = nullptr;     ///< in a cache that keeps it; null: `own_`
     std::optional<Bsdf> from_behind_;  ///< BSDF from the other side, with `both_ways`

@@ -34,6 +34,7 @@ struct OtherFace {
     bool endless = false;   ///< its primitive is unbounded
     bool known = false;     ///< its volume is a solid of several media
     bool physical = false;  ///< its material (MaterialSample::physical)
+    bool tints = false;     ///< it is the one that rays hit first behind a thin sheet
     Rgb kt;                 ///< of its material
 };
 /// Faces that are entered come first, the outermost volume first.
@@ -117,8 +118,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
-    /// `own`: the volume of the face that was hit.
-    void look_at(const Hit& hit, std::uint64_t own, const Arrival& arrival);
+    /// `own`: the volume of the face that was hit; null: a thin sheet was.
+    void look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival);
     /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is
     /// entered.
     void sort_entered(const ShadingPoint& point, const Medium* own, const Vec3& direction,

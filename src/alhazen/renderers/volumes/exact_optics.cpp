@@ -273,7 +273,7 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Face* own, std::uint32_t arou
             sides.behind = other.wall ? changed(medium_of(other), sides.behind)
                                       : without(medium_of(other), sides.behind);
         }
-        if (!other.physical && tints_events_) sides.before = sides.before * other.kt;
+        if (other.physical ? other.tints : tints_events_) sides.before = sides.before * other.kt;
     }
     enter_those(true);
     if (own != nullptr && own->entering) sides.behind = enter(own->inside, sides.behind);

@@ -247,6 +247,37 @@ TEST(CoincidentOptics, ASheetAndTheFacesAtItsPlaceAreAllMet) {
     }
 }
 
+TEST(CoincidentOptics, AFaceUnderASheetKeepsItsTint) {
+    Material physical_tint = testing::smooth_glass(1.0);
+    physical_tint.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};
+    Material kt;
+    kt.index.value = 1.0;
+    kt.transmissive.color = {0.5, 0.5, 0.5};
+    for (const Material& tinted : {physical_tint, kt}) {
+        for (const std::vector<double>& sheets :
+             std::vector<std::vector<double>>{{}, {1}, {0}, {0, 1}}) {
+            for (const bool first : {false, true}) {
+                SceneMaker maker = above_a_light();
+                // kt acts at surfaces.
+                maker.description().conventions.shading.optics = {true, false};
+                if (!first) maker.add(box(0, 1), maker.material(tinted));
+                for (const double z : sheets) {
+                    maker.add(Rectangle{{-2, -2, z}, {4, 0, 0}, {0, 4, 0}},
+                              maker.material(clear_sheet(0.9)));
+                }
+                if (first) maker.add(box(0, 1), maker.material(tinted));
+                const Scene scene = maker.compile();
+                const double t = 0.25 * std::pow(0.9, static_cast<double>(sheets.size()));
+                for (const char* renderer : {"whitted", "path_tracing", "bidirectional"}) {
+                    SCOPED_TRACE(::testing::Message() << renderer << " " << sheets.size() << first);
+                    const Rgb c = testing::picture_of(scene, renderer, 1, 4).at(0, 0);
+                    expect_near(c, {t, t, t}, 1e-6);
+                }
+            }
+        }
+    }
+}
+
 TEST(CoincidentOptics, ASheetOnAFaceThatDoesNotRefractReflects) {
     const Material volume = physical({1.0, 1.0});
     Material mirror = clear_sheet(1.0);
