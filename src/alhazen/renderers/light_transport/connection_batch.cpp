@@ -182,10 +182,9 @@ Spectrum ConnectionBatch::through_volumes(const Ray& ray, float time, RayKind ki
 }
 
 bool ConnectionBatch::is_crossed(const Ray& ray, const Hit& hit, float time) {
-    if (crossed_.empty() || hit.t > crossed_to_) return false;
+    if (!crossed_.may_have(hit.t)) return false;
     set_surface(*scene_.aggregate, ray, hit, CoordinateNeed::none(), surface_, time);
-    const std::uint64_t number = volume_number(surface_);
-    return std::find(crossed_.begin(), crossed_.end(), number) != crossed_.end();
+    return crossed_.has(volume_number(surface_), hit.t);
 }
 
 Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
@@ -196,11 +195,9 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
         faces_.find_next_to_sheets(point, ray.direction, arrival, mask_for(kind));
-        crossed_.clear();
-        for (const OtherFace& other : faces_.others()) crossed_.push_back(other.inside.part);
-        // Rays hit it twice.
-        if (is_wall(point.surface)) crossed_.push_back(volume_number(point.surface));
-        crossed_to_ = crossing.t + 2.0 * CoincidentSurfaces::reach(point.surface, ray.direction);
+        crossed_.add(faces_.others(), crossing.t,
+                     CoincidentSurfaces::reach(point.surface, ray.direction));
+        if (is_wall(point.surface)) crossed_.add_wall(volume_number(point.surface));
     }
     const double coverage = point.material->coverage;
     if (coverage == 0.0 && media == nullptr) return Spectrum::all(1);

@@ -90,7 +90,7 @@ class ConnectionBatch {
     /// volumes are not followed.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
                                    const Wavelengths& waves, MediumStack* media);
-    /// True if the face of the hit was crossed with the surface before.
+    /// True if the face of the hit was crossed with one before.
     [[nodiscard]] bool is_crossed(const Ray& ray, const Hit& hit, float time);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
                                    const MediumStack& media, const Wavelengths& waves,
@@ -110,9 +110,8 @@ class ConnectionBatch {
     std::vector<MediumStack> around_;  ///< [ray]; only if volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
-    std::vector<std::uint64_t> crossed_;  ///< volumes whose faces were crossed with a surface
-    double crossed_to_ = 0;               ///< end of these faces along the ray
-    Surface surface_;                     ///< of `is_crossed`
+    CrossedFaces crossed_;
+    Surface surface_;  ///< of `is_crossed`
 };
 
 }  // namespace alhazen

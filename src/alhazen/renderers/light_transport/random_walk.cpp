@@ -81,21 +81,13 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (stops_here(front, arrival, draws)) {
-            faces_.find(point_, ray.direction, arrival, mask());
-            if (faces_.opaque()) {
-                hit_ = *faces_.opaque();
-                set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
-                                  point_);
-            } else if (faces_.instead()) {
-                opening_.set(scene_, point_, front.media, front.waves, false, &bsdfs_,
-                             &faces_.others());
-                if (opening_.yields()) {
-                    hit_ = *faces_.instead();
-                    front.throughput = front.throughput * opening_.yielded();
-                    set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
-                                      point_);
-                    faces_.find(point_, ray.direction, arrival, mask());
-                }
+            const auto met = faces_.find(
+                point_,
+                {ray.direction, arrival, mask(), front.media, front.waves, &bsdfs_, &constant_},
+                point_);
+            if (met) {
+                hit_ = *met;
+                front.throughput = front.throughput * faces_.left();
             }
             return Meets::Surface;
         }

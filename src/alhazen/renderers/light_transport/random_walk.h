@@ -13,6 +13,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/met_faces.h"
 #include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_vertex.h"
@@ -150,7 +151,7 @@ class RandomWalk {
     MaterialCache constant_;
     BsdfCache bsdfs_;
     ShadingPoint point_;
-    CoincidentFaces faces_;  ///< at the point
+    MetFaces faces_;  ///< at the point
     CoincidentSurfaces here_;
     Ray beyond_;
     PassedSurfaces surfaces_;

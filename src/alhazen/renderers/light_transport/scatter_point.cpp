@@ -106,7 +106,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         thin_ && !others_.empty() && !(eta_of_faces(scene, media, waves) == Spectrum::all(1));
     if (refracts_at_sheet) others_.clear();
     const Spectrum all = etas(scene, point, media, waves);
-    if (point.coat_is_tilted) known = nullptr;
+    if (point.coat_is_tilted || (thin_ && !others_.empty())) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
     BsdfPlace place{.eta = all.a,
                     .from_inside = !entering_,
@@ -120,12 +120,14 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         place.etas = nullptr;
         set_bsdf(scene, surface, place, known);
     }
+    tint_by_faces(waves, own_);
     set_coat(scene, point, tangent);
-    null_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
-            material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
-            bsdf().refracts_alone() && may_be_null_boundary(scene, surface);
-    yields_ = refracts_at_sheet && !bsdf().has_density() && !coat_ &&
-              material.emission.is_black() && !material.unlit;
+    only_changes_media_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
+                          material.coverage >= 1.0 && material.emission.is_black() &&
+                          !material.unlit && bsdf().refracts_alone();
+    null_ = only_changes_media_ && may_be_null_boundary(scene, surface);
+    yields_ = only_changes_media_ || (refracts_at_sheet && !bsdf().has_density() && !coat_ &&
+                                      material.emission.is_black() && !material.unlit);
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
@@ -137,11 +139,18 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         from_behind_ = *shared;
     } else {
         make_bsdf(scene, surface, place, from_behind_.emplace());
+        tint_by_faces(waves, *from_behind_);
+    }
+}
+
+void ScatterPoint::tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const {
+    for (const OtherFace& other : others_) {
+        if (other.tints) bsdf.tint_transmission(waves.reflectance(other.kt));
     }
 }
 
 Spectrum ScatterPoint::yielded() const {
-    if (null_) return Spectrum::all(1);
+    if (only_changes_media_) return Spectrum::all(1);
     const Spectrum passed = straight();
     const Spectrum reflected = bsdf().singular(local_view_, Transport::Radiance).reflected;
     Spectrum left;

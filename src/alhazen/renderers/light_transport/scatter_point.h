@@ -80,9 +80,9 @@ class ScatterPoint {
 
     [[nodiscard]] bool is_null_boundary() const { return null_; }
     /// True if the other kind of surface at the place, thin sheet or boundary, is met instead
-    /// (CoincidentFaces::instead): of a null boundary, and of a smooth sheet that does not emit at
-    /// a boundary that refracts.
-    [[nodiscard]] bool yields() const { return null_ || yields_; }
+    /// (CoincidentFaces::instead): of a boundary that has no other effect than to bound volumes, of
+    /// the same index, and of a smooth sheet that does not emit at a boundary that refracts.
+    [[nodiscard]] bool yields() const { return yields_; }
     /// What is left of the light of a path where the surface yields: of a sheet what it passes of
     /// the light that it does not reflect, since the boundary reflects instead.
     [[nodiscard]] Spectrum yielded() const;
@@ -169,6 +169,9 @@ class ScatterPoint {
         return local.z * dot(direction, geometric_) > 0.0;
     }
 
+    /// Tints the light through a thin sheet by the faces at its place.
+    void tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const;
+
     Bsdf own_;
     const Bsdf* shared_ = nullptr;     ///< in a cache that keeps it; null: `own_`
     std::optional<Bsdf> from_behind_;  ///< BSDF from the other side, with `both_ways`
@@ -184,7 +187,7 @@ class ScatterPoint {
     Medium inside_;  ///< of the volume that the surface bounds
     OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
-    bool null_ = false, yields_ = false;
+    bool only_changes_media_ = false, null_ = false, yields_ = false;
     bool media_known_ = false;  ///< the media are stated by a solid
     bool enters_volume_ = true, is_wall_ = false;
 };

@@ -175,18 +175,11 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
     const Hit& hit = back && is_hit_from_behind(point) ? back->hit : visible_.reported_hit();
     if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
     const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
-    faces_.find(point, ray.direction, arrival, mask_of(path.kind));
-    std::optional<Hit> met = faces_.opaque();
-    if (!met && faces_.instead()) {
-        passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-        if (passed_.yields()) {
-            met = faces_.instead();
-            path.throughput = path.throughput * passed_.yielded();
-        }
-    }
+    const std::optional<Hit> met = faces_.find(
+        point, {ray.direction, arrival, mask_of(path.kind), path.media, waves(path), &bsdfs_},
+        other_face_);
     if (!met) return stop(path, ray, hit, point, sum);
-    set_shading_point(scene_, faces_.ray(), *met, arrival, {}, other_face_);
-    if (!faces_.opaque()) faces_.find(other_face_, ray.direction, arrival, mask_of(path.kind));
+    path.throughput = path.throughput * faces_.left();
     stop(path, ray, *met, other_face_, sum);
 }
 

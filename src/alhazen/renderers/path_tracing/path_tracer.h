@@ -13,6 +13,7 @@
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_layers.h"
 #include "alhazen/renderers/light_transport/matt_directions.h"
+#include "alhazen/renderers/light_transport/met_faces.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
@@ -234,7 +235,7 @@ class PathTracer {
     std::array<double, VertexLanes::kMost> lobe_choices_;  ///< set where a light is chosen, too
     LightDraws draws_;
     std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
-    CoincidentFaces faces_;
+    MetFaces faces_;
     ShadingPoint other_face_;  ///< a coincident surface that is hit instead
     ScatteringMedia media_;
     MediumStack behind_;             ///< media behind the current surface

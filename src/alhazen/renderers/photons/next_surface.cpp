@@ -51,19 +51,12 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
         path.cone = path.cone.from(hit_.t);
         path.travelled += hit_.t;
         if (stops_here(path, arrival, numbers)) {
-            faces_.find(point_, path.ray.direction, arrival, path.mask());
-            if (faces_.opaque()) {
-                hit_ = *faces_.opaque();
-                set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
-            } else if (faces_.instead()) {
-                opening_.set(scene_, point_, path.media, *path.waves, false, nullptr,
-                             &faces_.others());
-                if (opening_.yields()) {
-                    hit_ = *faces_.instead();
-                    path.throughput = path.throughput * opening_.yielded();
-                    set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
-                    faces_.find(point_, path.ray.direction, arrival, path.mask());
-                }
+            const auto met = faces_.find(
+                point_, {path.ray.direction, arrival, path.mask(), path.media, *path.waves},
+                point_);
+            if (met) {
+                hit_ = *met;
+                path.throughput = path.throughput * faces_.left();
             }
             return PathMeets::Surface;
         }

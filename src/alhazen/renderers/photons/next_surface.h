@@ -10,6 +10,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/met_faces.h"
 #include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
@@ -98,7 +99,7 @@ class NextSurface {
     TraversalStats* stats_;
     ScatteringMedia media_;
     ShadingPoint point_;
-    CoincidentFaces faces_;  ///< at the point
+    MetFaces faces_;  ///< at the point
     CoincidentSurfaces here_;
     Ray beyond_;
     PassedSurfaces surfaces_;

@@ -79,9 +79,10 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     hits_.clear();
     scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
     const HitParts own{surface.part, surface.instance};
+    const std::uint64_t number = volume_number(surface);
     for (const Hit& hit : hits_) {
         if (parts_of(*scene_.aggregate, hit) == own) continue;
-        look_at(hit, volume_number(surface), is_sheet, arrival);
+        look_at(hit, is_sheet ? nullptr : &number, arrival);
     }
     if (opaque_) {
         others_.clear();
@@ -147,13 +148,12 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     instead_.reset();
 }
 
-void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, bool at_sheet,
-                              const Arrival& arrival) {
+void CoincidentFaces::look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
     if (other_.material->coverage < 1.0) return;
     if (other_.material->thin) {
         const auto id = static_cast<std::size_t>(other_.surface.materials[0]);
-        if (!at_sheet && !instead_ && (*kinds_)[id] != Kind::Opaque &&
+        if (own != nullptr && !instead_ && (*kinds_)[id] != Kind::Opaque &&
             !other_.surface.media.known) {
             instead_ = hit;
         }
@@ -164,22 +164,31 @@ void CoincidentFaces::look_at(const Hit& hit, std::uint64_t own, bool at_sheet,
         // Rays hit a wall twice.
         const std::uint64_t number = volume_number(other_.surface);
         const auto is_same = [&](const OtherFace& face) { return face.inside.part == number; };
-        if (number == own || std::any_of(others_.begin(), others_.end(), is_same)) return;
+        if ((own != nullptr && number == *own) ||
+            std::any_of(others_.begin(), others_.end(), is_same))
+            return;
     }
     const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
     if ((*kinds_)[material] == Kind::Opaque) {
         if (!opaque_) opaque_ = hit;
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {
-        if (at_sheet && !instead_) instead_ = hit;
+        if (own == nullptr && !instead_) instead_ = hit;
         const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
         const MaterialSample& sample = *other_.material;
+        const bool tints = own == nullptr && others_.empty();
+        // A physical sample is turned to the view from air.
+        const Rgb kt = tints && sample.physical
+                           ? material_at(scene_, other_.surface, {}, {other_.surface.point, {}, {}})
+                                 .transmissive
+                           : sample.transmissive;
         others_.push_back({.inside = volume_of(scene_, other_),
                            .entering = enters_volume(other_),
                            .wall = is_wall(other_.surface),
                            .endless = !box.bounded(),
                            .known = known,
                            .physical = sample.physical,
-                           .kt = sample.transmissive});
+                           .tints = tints,
+                           .kt = kt});
     }
 }
 

@@ -13,6 +13,7 @@
 /// at a boundary that refracts, a smooth sheet is not met, and of others and the boundary the one
 /// that was hit is met alone.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,10 +35,40 @@ struct OtherFace {
     bool endless = false;   ///< its primitive is unbounded
     bool known = false;     ///< its volume is a solid of several media
     bool physical = false;  ///< its material (MaterialSample::physical)
+    bool tints = false;     ///< it is the one that rays hit first behind a thin sheet
     Rgb kt;                 ///< of its material
 };
 /// Faces that are entered come first, the outermost volume first.
 using OtherFaces = std::vector<OtherFace>;
+
+/// The faces at one place of a ray that have been crossed together. Sheets and open surfaces among
+/// them, which are crossed by themselves, are left out.
+class CrossedFaces {
+  public:
+    /// For the start of a ray.
+    void clear() {
+        volumes_.clear();
+        end_ = 0.0;
+    }
+    /// True if the face of that volume (volume_number) at the distance was crossed with another.
+    [[nodiscard]] bool has(std::uint64_t volume, double t) const {
+        return t <= end_ && std::find(volumes_.begin(), volumes_.end(), volume) != volumes_.end();
+    }
+    [[nodiscard]] bool may_have(double t) const { return t <= end_ && !volumes_.empty(); }
+    /// Adds the faces that are crossed with a surface at the distance `t`, of reach `reach`
+    /// (CoincidentSurfaces).
+    void add(const OtherFaces& others, double t, double reach) {
+        if (t > end_) volumes_.clear();
+        for (const OtherFace& other : others) volumes_.push_back(other.inside.part);
+        end_ = std::max(end_, t + 2.0 * reach);
+    }
+    /// Adds the second crossing of the wall of a solid that was added last.
+    void add_wall(std::uint64_t volume) { volumes_.push_back(volume); }
+
+  private:
+    std::vector<std::uint64_t> volumes_;
+    double end_ = 0.0;  ///< distance
+};
 
 class CoincidentFaces {
   public:
@@ -89,8 +120,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
-    /// `own`: the volume of the face that was hit; `at_sheet`: it is a thin sheet.
-    void look_at(const Hit& hit, std::uint64_t own, bool at_sheet, const Arrival& arrival);
+    /// `own`: the volume of the face that was hit; null: a thin sheet was.
+    void look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival);
     /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is
     /// entered.
     void sort_entered(const ShadingPoint& point, const Medium* own, const Vec3& direction,

@@ -121,8 +121,7 @@ bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const 
                met.specular.is_black() && met.emission.is_black();
     }
     const auto id = static_cast<std::size_t>(point.surface.materials[0]);
-    return sides.here == sides.beyond &&
-           may_be_null_boundary(scene_.materials[id], scene_.conventions.shading.air_index);
+    return sides.here == sides.beyond && may_only_bound_volume(scene_.materials[id]);
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {
@@ -210,11 +209,16 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
         const Face own = face_of(surface, material, entering);
         return sides_of_all(&own, around, others);
     }
-    if (material.thin && !others.empty()) {
-        const Sides all = sides_of_all(nullptr, around, others);
-        if (all.here == all.beyond) return all;
-    }
     Sides sides{media_[around].index, material.index, around};
+    if (material.thin && !others.empty()) {
+        // The sheet reflects by its own index; its faces change the medium.
+        const Sides all = sides_of_all(nullptr, around, others);
+        if (all.here == all.beyond) {
+            sides.behind = all.behind;
+            sides.joined = all.joined;
+            sides.before = all.before;
+        }
+    }
     if (bounds_a_volume(material)) {
         const Medium inside = medium_of(surface, material);
         if (is_open(material.physical, surface.part)) {
@@ -281,7 +285,7 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Face* own, std::uint32_t arou
             sides.behind = other.wall ? changed(medium_of(other), sides.behind)
                                       : without(medium_of(other), sides.behind);
         }
-        if (!other.physical && tints_events_) sides.before = sides.before * other.kt;
+        if (other.physical ? other.tints : tints_events_) sides.before = sides.before * other.kt;
     }
     enter_those(true);
     if (own != nullptr && own->entering) sides.behind = enter(own->inside, sides.behind);

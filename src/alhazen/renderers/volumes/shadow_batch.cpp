@@ -213,16 +213,12 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     std::uint32_t medium =
         scene_.has_masks ? optics_->seen_by_shadow_rays(path.medium) : path.medium;
     double last = 0.0, met = -min_distance;
-    double together_to = 0.0;  // end of the faces that were crossed together
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
         const Surface& surface = crossed(ray, crossing, path.time);
         const std::uint64_t number = volume_number(surface);
-        if (crossing.t <= together_to &&
-            std::find(together_.begin(), together_.end(), number) != together_.end()) {
-            continue;
-        }
+        if (together_.has(number, crossing.t)) continue;
         const bool tints = !(crossing.t - met < min_distance);
         if (tints) met = crossing.t;
         const bool wall = is_wall(surface);
@@ -235,10 +231,8 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         const bool alone = i + 1 == crossings_.size() || crossings_[i + 1].t - crossing.t > reach;
         others_.clear();
         if (!alone) others_ = optics_->faces_at(ray, crossing, path.time);
-        together_.clear();
-        for (const OtherFace& other : others_) together_.push_back(other.inside.part);
-        if (wall) together_.push_back(number);  // Rays hit it twice.
-        together_to = crossing.t + 2.0 * reach;
+        together_.add(others_, crossing.t, reach);
+        if (wall) together_.add_wall(number);
         auto [through, behind] = optics_->cross(surface, material, ray.direction, medium, others_);
         if (scene_.conventions.shading.shadow_tint == ShadowTint::Opaque) through = {};
         if (!tints) through = {1, 1, 1};

@@ -99,12 +99,12 @@ class ShadowBatch {
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
-    Surface surface_;                      ///< result of `crossed`
-    MaterialSample own_;                   ///< result of `material_of`
-    MaterialSample medium_;                ///< between the surfaces of a solid of several media
-    CrossedVolumes volumes_;               ///< around the shadow ray
-    OtherFaces others_;                    ///< faces that are crossed with a crossing
-    std::vector<std::uint64_t> together_;  ///< volumes whose faces the last crossing crossed
+    Surface surface_;         ///< result of `crossed`
+    MaterialSample own_;      ///< result of `material_of`
+    MaterialSample medium_;   ///< between the surfaces of a solid of several media
+    CrossedVolumes volumes_;  ///< around the shadow ray
+    OtherFaces others_;       ///< faces that are crossed with a crossing
+    CrossedFaces together_;   ///< with earlier crossings
 };
 
 }  // namespace alhazen

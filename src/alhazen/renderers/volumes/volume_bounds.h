@@ -8,17 +8,21 @@
 
 namespace alhazen {
 
-/// True if a surface of the material may bound a volume of the index of the air without any other
-/// effect: light passes it straight (ScatterPoint::is_null_boundary).
-[[nodiscard]] inline bool may_be_null_boundary(const Material& m, double air) {
-    if (!may_bound_volume(m) || (m.index.texture == kNoTexture && m.index.value != air)) {
-        return false;
-    }
+/// True if a surface of the material may bound a volume without any other effect than those of the
+/// indices on its sides.
+[[nodiscard]] inline bool may_only_bound_volume(const Material& m) {
+    if (!may_bound_volume(m)) return false;
     if (m.dielectric || m.metallic_roughness) return true;
     const auto none = [](const ColorInput& input) {
         return input.texture == kNoTexture && input.color.is_black();
     };
     return none(m.diffuse) && none(m.reflective);
+}
+
+/// True if a surface of the material may bound a volume of the index of the air without any other
+/// effect: light passes it straight (ScatterPoint::is_null_boundary).
+[[nodiscard]] inline bool may_be_null_boundary(const Material& m, double air) {
+    return (m.index.texture != kNoTexture || m.index.value == air) && may_only_bound_volume(m);
 }
 
 /// The identity of the volume that a surface bounds: its part, or a solid of several media.

@@ -131,6 +131,14 @@ void Bsdf::add(const Bsdf& other, double weight) {
     }
 }
 
+void Bsdf::tint_transmission(const Spectrum& tint) {
+    for (Unmade<Part>& part : parts_) {
+        if (std::visit([]<class L>(const L&) { return L::kTransmits; }, part.value.lobe)) {
+            part.value.weight = tint * part.value.weight;
+        }
+    }
+}
+
 double Bsdf::through(CoverSet covers, const Vec3& direction) const {
     double share = 1.0;
     for (std::size_t i = 0; covers >> i != 0; ++i) {
