@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "alhazen/geometry/polygon/plane_normal.h"
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/polygons/polygon_cells.h"
@@ -14,66 +15,6 @@ namespace alhazen {
 namespace {
 
 constexpr double kLeastQuotient = 1e-280;
-
-/// Newell's normal is dropped where the vertices are this many times farther off its plane than off
-/// that of their largest triangle, and farther than that share of their reach.
-constexpr double kTimesFarther = 4.0, kShareOfReach = 1e-9;
-
-/// Newell's normal: the sum over the edges of (a - origin) x (b - origin); its length is twice the
-/// signed area.
-Vec3 newell_normal(const Polygon& polygon) {
-    Vec3 sum;
-    const Vec3 origin = polygon.vertices.front();
-    std::size_t first = 0;
-    for (const std::size_t end : polygon.loop_ends) {
-        for (std::size_t i = first; i < end; ++i) {
-            const Vec3& next = polygon.vertices[i + 1 < end ? i + 1 : first];
-            sum += cross(polygon.vertices[i] - origin, next - origin);
-        }
-        first = end;
-    }
-    return sum;
-}
-
-/// Of the triangles of the first vertex and the one farthest from it, twice the vector area of the
-/// largest.
-Vec3 largest_triangle(const std::vector<Vec3>& vertices) {
-    const Vec3 origin = vertices.front();
-    Vec3 farthest, largest;
-    for (const Vec3& v : vertices) {
-        if (length_squared(v - origin) > length_squared(farthest)) farthest = v - origin;
-    }
-    for (const Vec3& v : vertices) {
-        const Vec3 area = cross(farthest, v - origin);
-        if (length_squared(area) > length_squared(largest)) largest = area;
-    }
-    return largest;
-}
-
-/// The extent of the vertices along `normal`, times its length.
-double extent_along(const Vec3& normal, const std::vector<Vec3>& vertices) {
-    Interval range;
-    for (const Vec3& v : vertices) range.include(dot(normal, v - vertices.front()));
-    return range.width();
-}
-
-/// Along the normal: Newell's, or where parts of opposite orientation cancel, as in a bow tie, so
-/// that it is due to vertices off the plane, the largest triangle's. No plane is many times nearer
-/// to the vertices than that triangle's.
-Vec3 plane_normal(const Polygon& polygon) {
-    const std::vector<Vec3>& vertices = polygon.vertices;
-    const Vec3 newell = newell_normal(polygon);
-    const Vec3 spanned = largest_triangle(vertices);
-    // A sum as long as that is not due to vertices off the plane.
-    const double own = length(newell), wide = length(spanned);
-    if (own >= wide) return newell;
-    double reach = 0.0;
-    for (const Vec3& v : vertices) reach = std::max(reach, length(v - vertices.front()));
-    const double allowed =
-        kTimesFarther * extent_along(spanned, vertices) + kShareOfReach * reach * wide;
-    if (own > 0.0 && extent_along(newell, vertices) / own < allowed / wide) return newell;
-    return dot(newell, spanned) < 0.0 ? -spanned : spanned;
-}
 
 /// True if every edge occurs an even number of times: by the odd-even rule nothing is inside.
 bool edges_cancel(const Polygon& polygon) {
@@ -244,7 +185,7 @@ double clamped_to_box(double t, const Ray& ray, const Box3& box, std::uint32_t n
 
 void Polygon::prepare() {
     if (loop_ends.empty()) loop_ends = {static_cast<std::uint32_t>(vertices.size())};
-    normal = unit_or(plane_normal(*this), {0, 0, 1});
+    normal = unit_or(plane_normal(vertices, loop_ends), {0, 0, 1});
     point = mean_vertex(vertices);
     u_axis = first_edge_direction(*this);
     bounds = {};
@@ -284,7 +225,7 @@ void Polygon::validate(const FileLocation& where, Diagnostics& diagnostics) cons
     for (const Vec3& v : vertices) box.include(v);
     const double size = max_component(box.size());
     const double least = 1e-14 * size * size;
-    if (max_component(abs(newell_normal(loops))) > least) return;
+    if (max_component(abs(loops_normal(vertices, loops.loop_ends))) > least) return;
     const double spanned = max_component(abs(largest_triangle(vertices)));
     if (!(spanned > least) || edges_cancel(loops)) checks.fail("the vertices enclose no area");
 }
