@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "alhazen/base/overloaded.h"
+#include "alhazen/geometry/polygon/plane_normal.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
@@ -80,14 +81,7 @@ ExtentHandles handles_of(const LightExtent& extent) {
                        handles.sizes = {{"length", length(t.top - t.base)}, {"radius", t.radius}};
                    },
                    [&](const PolygonExtent& p) {
-                       // Newell's normal, valid for any outline.
-                       Vec3 normal;
-                       for (std::size_t i = 0; i < p.vertices.size(); ++i) {
-                           const Vec3& next = p.vertices[(i + 1) % p.vertices.size()];
-                           normal +=
-                               cross(p.vertices[i] - handles.position, next - handles.position);
-                       }
-                       handles.direction = unit_or(normal, {0, 0, 1});
+                       handles.direction = unit_or(plane_normal(p.vertices, {}), {0, 0, 1});
                        handles.sizes = {{"scale", 1.0}};
                    },
                    [&](const MeshExtent&) {
