@@ -1,8 +1,8 @@
 #include "alhazen/illumination/emitters_of_light.h"
 
 #include "alhazen/base/overloaded.h"
-#include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/shading/lights/extent_triangles.h"
 
 namespace alhazen {
 
@@ -47,15 +47,7 @@ void append_extent(const LightExtent& extent, std::vector<Emitter>& list) {
                      .world_from_own = {{t.radius * x, t.radius * cross(n, x), t.top - t.base},
                                         t.base}});
             },
-            [&](const PolygonExtent& p) {
-                MeshExtent mesh{p.vertices, {}};
-                std::vector<std::uint32_t> loop(p.vertices.size());
-                for (std::size_t i = 0; i < loop.size(); ++i) {
-                    loop[i] = static_cast<std::uint32_t>(i);
-                }
-                triangulate(mesh.points, loop, mesh.triangles);
-                append_extent_triangles(mesh, list);
-            },
+            [&](const PolygonExtent& p) { append_extent_triangles(triangles_of(p), list); },
             [&](const MeshExtent& m) { append_extent_triangles(m, list); }},
         extent);
 }

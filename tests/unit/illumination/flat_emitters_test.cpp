@@ -5,6 +5,7 @@
 #include "alhazen/illumination/emitter.h"
 #include "alhazen/illumination/illumination.h"
 #include "support/light_checks.h"
+#include "support/odd_even_area.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 
@@ -113,6 +114,26 @@ TEST(FlatEmitters, PolygonsWithCornersRoundedToFloatsAreDrawn) {
             expect_equal_densities(scene, lights, at, 1e-5);
             EXPECT_LT(std::abs(irradiance_z(scene, lights, at, 20000, 7)), 4.5);
         }
+    }
+}
+
+TEST(FlatEmitters, PolygonsThatMeetThemselvesShineOnce) {
+    std::vector<std::vector<Vec3>> loops;
+    for (const LoopOfArea& c : touching_loops()) loops.push_back(c.loop);
+    Random random(93);
+    for (int i = 0; i < 30; ++i) {
+        const std::vector<Vec3> loop = random_loop(random);
+        if (odd_even_area(loop) > 0.0) loops.push_back(loop);
+    }
+    for (const std::vector<Vec3>& loop : loops) {
+        SceneMaker maker;
+        Material surface;
+        surface.emission.color = {2, 3, 4};
+        maker.add(Polygon{.vertices = loop}, maker.material(surface));
+        const Scene scene = maker.compile();
+        const Illumination lights(scene);
+        const LitPoint at{{0.3, 0.2, -2}, {0, 0, 1}, false};
+        EXPECT_LT(std::abs(irradiance_z(scene, lights, at, 20000, 7)), 4.5) << &loop - loops.data();
     }
 }
 

@@ -14,6 +14,7 @@
 #include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/image_texture.h"
+#include "support/odd_even_area.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -312,6 +313,39 @@ TEST(BeamTracing, PolygonsThatCrossThemselvesAreMendedAndSaid) {
         const Picture beams = beams_of(maker);
         EXPECT_EQ(differing(beams.film, rays_of(maker).film, 1e-6), 0);
         EXPECT_EQ(beams.report.notes.size(), 1u);
+    }
+}
+
+TEST(BeamTracing, PolygonsThatMeetThemselvesAreSeenAsByRays) {
+    std::vector<Polygon> polygons;
+    // Bow ties between parallel sides: their halves cancel, one up to rounding.
+    for (const double off : {0.0, 1e-9}) {
+        polygons.push_back({.vertices = {{-1, -1, 0}, {1, 1, 0}, {1, -1, off}, {-1, 1, 0}}});
+        polygons.push_back({.vertices = {{-1, -1, 0}, {1, 1, 0}, {2, -1, off}, {-1, 1, 0}}});
+    }
+    for (const auto& [loop, area] : testing::touching_loops()) {
+        polygons.push_back({.vertices = loop});
+    }
+    testing::Random random(4);
+    for (int i = 0; i < 40; ++i) {
+        polygons.push_back({.vertices = testing::random_loop(random)});
+        if (testing::odd_even_area(polygons.back().vertices) == 0.0) polygons.pop_back();
+    }
+    for (const Polygon& polygon : polygons) {
+        SceneMaker maker = polygon_before_a_wall(polygon);
+        EXPECT_LE(differing(beams_of(maker).film, rays_of(maker).film, 1e-6), 0)
+            << &polygon - polygons.data();
+    }
+    // Mirrored, and seen from its front alone: rays see both or none of the halves.
+    for (const double side : {1.0, -1.0}) {
+        SceneMaker maker;
+        maker.description().cameras[0].camera = look_along(
+            {0.1, -0.2, 6 * side}, {0, 0, -side}, {0, 1, 0}, 0.7, double(kWidth) / kHeight);
+        Material front = painted({0.7, 0.3, 0.2});
+        front.double_sided = false;
+        maker.add(polygons[0], maker.material(front), Affine::scale({-1, 0.5, 1}));
+        maker.light(AmbientLight{{0.3, 0.3, 0.3}});
+        EXPECT_EQ(differing(beams_of(maker).film, rays_of(maker).film, 1e-6), 0) << side;
     }
 }
 

@@ -18,6 +18,7 @@
 #include "alhazen/renderers/cone_tracing/cone_tree.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/image_texture.h"
+#include "support/odd_even_area.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -82,6 +83,28 @@ TEST(ConeTracing, APolygonThatCrossesItselfIsFilledOddEven) {
     EXPECT_NEAR(one_pixel(half), 0.5, 1e-6);
     hole.add(pentagram, hole.material(glowing({1, 1, 1})));
     EXPECT_NEAR(one_pixel(hole), 0.0, 1e-12);
+    // A vertex in the crossing, on either diagonal.
+    for (const std::vector<Vec3>& loop :
+         {std::vector<Vec3>{{0, 0, 0}, {9, 9, 0}, {9, -9, 0}, {0, 0, 0}, {-9, 9, 0}, {-9, -9, 0}},
+          std::vector<Vec3>{{-9, -9, 0}, {0, 0, 0}, {9, 9, 0}, {9, -9, 0}, {-9, 9, 0}}}) {
+        SceneMaker touching;
+        touching.add(Polygon{.vertices = loop}, touching.material(glowing({1, 1, 1})));
+        EXPECT_NEAR(one_pixel(touching), 0.5, 1e-6);
+    }
+}
+
+TEST(ConeTracing, PolygonsThatMeetThemselvesCoverTheirArea) {
+    testing::Random random(3);
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Vec3> loop = testing::random_loop(random);
+        const double area = testing::odd_even_area(loop);
+        if (!(area > 0.0)) continue;
+        // All within the cone of the pixel.
+        for (Vec3& p : loop) p = 0.15 * p;
+        SceneMaker maker;
+        maker.add(Polygon{.vertices = loop}, maker.material(glowing({1, 1, 1})));
+        EXPECT_NEAR(one_pixel(maker), 0.0225 * area, 1e-6) << round;
+    }
 }
 
 TEST(ConeTracing, AnEyeInsideSolidsSeesTheirInnerSides) {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/extent_triangles.h"
+#include "support/odd_even_area.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -98,6 +100,32 @@ TEST(Light, AnOpenMeshShinesToItsOuterSideLikeThePolygon) {
         }
         EXPECT_NEAR(at(square(false), {0.5, 0.5, 0}), 1 / kPi, 1e-15);
         EXPECT_NEAR(at(square(true), {0.5, 0.5, 0}), two_sided ? 1 / kPi : 0.0, 1e-15);
+    }
+}
+
+TEST(Light, APolygonThatMeetsItselfShinesOnceByTheOddEvenRule) {
+    for (const testing::LoopOfArea& c : testing::touching_loops()) {
+        EXPECT_NEAR(LightSurface(PolygonExtent{c.loop}, true).area(), c.area, 1e-6);
+    }
+    const PolygonExtent bow{{{-1, -1, 0}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}}};
+    const LightSurface surface(bow, true);
+    EXPECT_NEAR(surface.area(), 2, 1e-6);
+    EXPECT_NEAR(surface.projected_area({0.6, 0, 0.8}), 1.6, 1e-6);
+    EXPECT_LT(length(surface.center()), 1e-6);
+    // All face one way.
+    const MeshExtent triangles = triangles_of(bow);
+    double area = 0;
+    for (const auto& [a, b, c] : triangles.triangles) {
+        const Vec3 normal = cross(triangles.points[b] - triangles.points[a],
+                                  triangles.points[c] - triangles.points[a]);
+        area += 0.5 * normal.z;
+    }
+    EXPECT_NEAR(std::abs(area), 2, 1e-6);
+    testing::Random random(8);
+    for (int round = 0; round < 500; ++round) {
+        const PolygonExtent loop{testing::random_loop(random)};
+        EXPECT_NEAR(LightSurface(loop, true).area(), testing::odd_even_area(loop.vertices), 1e-5)
+            << round;
     }
 }
 

@@ -37,7 +37,8 @@ class LoopParter {
         int turns_back = 0;
         for (std::size_t k = 0; k < n; ++k) {
             const std::uint32_t a = loop[k], b = loop[(k + 1) % n], c = loop[(k + 2) % n];
-            if (turn_at(a, b, c) < 0) return false;
+            const int turn = turn_at(a, b, c);
+            if (turn < 0 || (turn == 0 && is_spike(a, b, c))) return false;
             // A single revolution has two changes of direction along x.
             const bool right = flat_[a].x < flat_[b].x, next = flat_[b].x < flat_[c].x;
             turns_back += right != next;
@@ -48,6 +49,11 @@ class LoopParter {
   private:
     [[nodiscard]] int turn_at(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return orientation(flat_[a], flat_[b], flat_[c]);
+    }
+    /// True if the edges at b, which are in a line, run back and forth.
+    [[nodiscard]] bool is_spike(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const Vec2 to = flat_[b] - flat_[a], from = flat_[c] - flat_[b];
+        return to.x * from.x + to.y * from.y < 0.0;
     }
     [[nodiscard]] std::vector<Vec3> points(const CornerLoop& loop) const {
         std::vector<Vec3> result;

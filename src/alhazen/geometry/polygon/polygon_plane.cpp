@@ -83,7 +83,8 @@ Vec3 newell_normal_of_loops(std::span<const Vec3> vertices,
     Vec3 sum;
     const Vec3 origin = vertices.front();
     std::size_t first = 0;
-    for (const std::size_t end : loop_ends) {
+    for (std::size_t k = 0; k < std::max<std::size_t>(loop_ends.size(), 1); ++k) {
+        const std::size_t end = loop_ends.empty() ? vertices.size() : loop_ends[k];
         for (std::size_t i = first; i < end; ++i) {
             const Vec3& next = vertices[i + 1 < end ? i + 1 : first];
             sum += cross(vertices[i] - origin, next - origin);

@@ -22,7 +22,8 @@ namespace alhazen {
 /// corners, twice the signed area along the normal.
 [[nodiscard]] Vec3 newell_normal(std::span<const Vec3> positions,
                                  std::span<const std::uint32_t> polygon);
-/// The same over loops of consecutive vertices; `loop_ends`: [loop] one past its last vertex.
+/// The same over loops of consecutive vertices; `loop_ends`: [loop] one past its last vertex;
+/// empty: one loop.
 [[nodiscard]] Vec3 newell_normal_of_loops(std::span<const Vec3> vertices,
                                           std::span<const std::uint32_t> loop_ends);
 

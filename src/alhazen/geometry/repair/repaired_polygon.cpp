@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon_sets/mending.h"
 
 namespace alhazen {
@@ -41,6 +42,8 @@ class PlaneLattice {
         return plane_.offset * plane_.normal + (middle_.x + step_ * p.x) * u_ +
                (middle_.y + step_ * p.y) * v_;
     }
+    /// The distance of neighbours.
+    [[nodiscard]] double step() const { return step_; }
 
   private:
     FacetPlane plane_;
@@ -85,6 +88,36 @@ double size_of_polygon(std::span<const Vec3> corners) {
     return most;
 }
 
+/// The area of counter-clockwise parts, seen along the unit `normal`.
+double area_of_parts(const std::vector<std::vector<Vec3>>& parts, const Vec3& normal) {
+    double sum = 0.0;
+    for (const std::vector<Vec3>& part : parts)
+        sum += 0.5 * dot(newell_normal_of_loops(part, {}), normal);
+    return sum;
+}
+
+double length_of_edges(std::span<const Vec3> loop) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        sum += length(loop[i + 1 < loop.size() ? i + 1 : 0] - loop[i]);
+    }
+    return sum;
+}
+double length_of_edges(const std::vector<std::vector<Vec3>>& parts) {
+    double sum = 0.0;
+    for (const std::vector<Vec3>& part : parts) sum += length_of_edges(std::span(part));
+    return sum;
+}
+
+/// The largest difference of the area of a polygon from that of its set on the lattice, due to
+/// rounding: each edge moves by at most two steps, and coordinates are rounded.
+double area_slack(std::span<const Vec3> corners, const PlaneLattice& lattice) {
+    constexpr double kRounding = 1e-15;
+    double reach = 0.0;
+    for (const Vec3& p : corners) reach = std::max(reach, length(p));
+    return (4.0 * lattice.step() + kRounding * reach) * length_of_edges(corners);
+}
+
 }  // namespace
 
 RepairedPolygon repaired_polygon(std::span<const Vec3> corners, std::span<const std::uint32_t> ends,
@@ -93,18 +126,20 @@ RepairedPolygon repaired_polygon(std::span<const Vec3> corners, std::span<const 
     std::vector<Vec3> flat(corners.begin(), corners.end());
     const double off = flatten_corners(flat, plane);
     const double size = size_of_polygon(corners);
+    if (!(size > 0.0)) return result;
     if (off > kBentPolygon * size) {
-        result.refused = "polygon with corners " + three_digits(off) + " off its plane";
+        result.refused = "polygon with corners " + three_digits(off) + " off its plane (at most " +
+                         three_digits(kBentPolygon * size) + ", a hundredth of its size)";
         return result;
     }
     if (off > kFlatPolygon * size) {
         result.mended = "corners up to " + three_digits(off) + " off its plane were moved to it";
         corners = flat;
     }
-    const bool many = corners.size() > kMostMended;
-    if (ends.size() <= 1 && (!many || is_convex_loop(corners, plane.normal))) {
+    const bool many = corners.size() > kMostMended, one_loop = ends.size() <= 1;
+    if (one_loop && (corners.size() <= 3 || is_convex_loop(corners, plane.normal))) {
         result.parts = convex_parts(corners, ends, plane.normal);
-        if (result.parts.size() == 1 || corners.size() <= 3) return result;
+        return result;
     }
     if (many) {
         result.refused = "polygon of " + std::to_string(corners.size()) +
@@ -115,15 +150,32 @@ RepairedPolygon repaired_polygon(std::span<const Vec3> corners, std::span<const 
     const PlaneLattice lattice(corners, plane);
     Mending mending;
     const PolygonSet set = polygon_set(lattice_loops(corners, ends, lattice), &mending);
-    const bool crosses = mending.crossings + mending.overlaps > 0;
-    if (!crosses && (ends.size() <= 1 || corners.size() <= kManyMended)) {
-        if (ends.size() > 1) result.parts = convex_parts(corners, ends, plane.normal);
-        return result;
+    const double area =
+        0.5 * lattice.step() * lattice.step() * static_cast<double>(twice_area(set));
+    const double slack = area_slack(corners, lattice);
+    const bool many_in_loops = !one_loop && corners.size() > kManyMended;
+    const bool overlaps = mending.crossings + mending.overlaps > 0;
+    bool faulty = !one_loop && overlaps;
+    if (!faulty && !many_in_loops) {
+        // Triangles on the corners cover the polygon once, and nothing beside it, if and only if
+        // their areas add up to its area: their sum is at least the integral of the magnitude of
+        // the winding number, and that is at least the area of the points where it is odd.
+        result.parts = convex_parts(corners, ends, plane.normal);
+        const double by_projection =
+            result.mended.empty() ? off * length_of_edges(result.parts) : 0;
+        faulty = std::abs(area_of_parts(result.parts, plane.normal) - area) > slack + by_projection;
     }
-    result.crosses = crosses;
-    if (crosses) {
-        result.mended += (result.mended.empty() ? "" : "; ") + to_string(mending);
+    // Triangles of a loop with repeated corners, or without area, are not those of the parts.
+    const double signed_area = 0.5 * dot(newell_normal_of_loops(corners, ends), plane.normal);
+    const bool differs =
+        mending.repeated_points > 0 || area <= slack || std::abs(signed_area - area) > slack;
+    result.crosses = faulty || (one_loop ? differs : mending.touches > 0);
+    if (faulty || overlaps) {
+        // Spikes that are narrower than a step leave no trace on the lattice.
+        result.mended += (result.mended.empty() ? "" : "; ") +
+                         (mending.any() ? to_string(mending) : "edges almost on each other");
     }
+    if (!faulty && !many_in_loops) return result;
     result.parts.clear();
     for (const LatticeTriangle& t : triangulate(set)) {
         result.parts.push_back({lattice.up(t[0]), lattice.up(t[1]), lattice.up(t[2])});

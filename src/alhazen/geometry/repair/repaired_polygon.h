@@ -1,9 +1,10 @@
 #pragma once
-/// Converts any polygon to convex parts in one plane, repairing corners off the plane, crossing or
-/// overlapping edges and many holes; reports the repairs.
+/// Converts any polygon to convex parts in one plane, repairing corners off the plane, loops that
+/// cross, overlap or touch themselves and many holes; reports the repairs.
 ///
-/// Conventions: inside by the odd-even rule. A polygon with crossing edges, or with several loops
-/// and many corners, is rounded to a lattice of 2^25 steps across it; others keep their corners.
+/// Conventions: inside by the odd-even rule. A polygon that triangles on its corners do not cover
+/// exactly once, or with loops that overlap, or with several loops and many corners, is rounded to
+/// a lattice of 2^25 steps across it; others keep their corners.
 /// Refused are polygons with a corner farther off their plane than a hundredth of their size, and
 /// non-convex ones with more than 20 000 corners, which would become as many slivers.
 /// Complexity: O(n log n), except that of convex_parts.h for polygons of few corners.
@@ -17,9 +18,9 @@ namespace alhazen {
 
 struct RepairedPolygon {
     std::vector<std::vector<Vec3>> parts;  ///< counter-clockwise around the plane's normal
-    bool crosses = false;                  ///< edges cross or overlap
-    std::string mended;                    ///< description of the repairs; empty: none
-    std::string refused;                   ///< reason for refusal; empty: not refused
+    bool crosses = false;  ///< triangles or signed areas of the loops may not be the polygon's
+    std::string mended;    ///< description of the repairs; empty: none
+    std::string refused;   ///< reason for refusal; empty: not refused
 };
 
 [[nodiscard]] RepairedPolygon repaired_polygon(std::span<const Vec3> corners,

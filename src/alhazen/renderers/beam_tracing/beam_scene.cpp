@@ -5,8 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "alhazen/math/unit_vector.h"
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
+#include "alhazen/math/unit_vector.h"
 #include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shapes/polygons/face_loops.h"
@@ -14,21 +15,6 @@
 namespace alhazen {
 
 namespace {
-
-/// Twice the area of loops, along their normal.
-Vec3 normal_of_loops(std::span<const Vec3> corners, std::span<const std::uint32_t> ends) {
-    Vec3 sum;
-    std::size_t first = 0;
-    for (std::size_t k = 0; k < std::max<std::size_t>(ends.size(), 1); ++k) {
-        const std::size_t end = ends.empty() ? corners.size() : ends[k];
-        for (std::size_t i = first; i < end; ++i) {
-            sum +=
-                cross(corners[i] - corners[0], corners[i + 1 == end ? first : i + 1] - corners[0]);
-        }
-        first = end;
-    }
-    return sum;
-}
 
 class BeamGatherer {
   public:
@@ -151,7 +137,7 @@ class BeamGatherer {
     }
 
     bool add_kind(const Polygon& s, BeamFacet facet) {
-        add_placed(facet, s.vertices, s.loop_ends);
+        add_placed(facet, s.vertices, s.loop_ends, s.normal);
         return true;
     }
     bool add_kind(const Rectangle& s, BeamFacet facet) {
@@ -177,17 +163,21 @@ class BeamGatherer {
         }
     }
 
+    /// `side`: a normal on the front side; 0: corners run counter-clockwise seen from there.
     void add_placed(const BeamFacet& facet, std::span<const Vec3> corners,
-                    std::span<const std::uint32_t> ends) {
+                    std::span<const std::uint32_t> ends, const Vec3& side = {}) {
         std::vector<Vec3> placed;
         for (const Vec3& p : corners) placed.push_back(world_.point(p));
-        add_facet(facet, placed, ends);
+        add_facet(facet, placed, ends, transpose_times(inverse(world_).linear, side));
     }
     void add_facet(const BeamFacet& facet, std::span<const Vec3> corners,
-                   std::span<const std::uint32_t> ends) {
-        Vec3 normal = unit_or(normal_of_loops(corners, ends), {0, 0, 0});
+                   std::span<const std::uint32_t> ends, const Vec3& side = {}) {
+        Vec3 normal = unit_or(corners.size() == 3 ? newell_normal_of_loops(corners, ends)
+                                                  : plane_normal_of_loops(corners, ends),
+                              {0, 0, 0});
         if (!(length_squared(normal) > 0.0)) return;
         if (mirrored_) normal = -normal;
+        if (dot(normal, side) < 0.0) normal = -normal;
         double offset = 0.0;
         for (const Vec3& p : corners) offset += dot(normal, p);
         const auto number = static_cast<std::uint32_t>(result_.facets.size());

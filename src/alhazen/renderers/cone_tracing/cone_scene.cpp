@@ -251,7 +251,7 @@ class ConeGatherer {
             add_face(0, s.vertices, s.loop_ends);
             return true;
         }
-        // Inside is odd-even: signed areas of a loop that crosses itself would say otherwise.
+        // Inside is odd-even: signed areas of a loop that meets itself may say otherwise.
         for (const std::vector<Vec3>& part : repaired.parts) add_face(0, part, {});
         return true;
     }

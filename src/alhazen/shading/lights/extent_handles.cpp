@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "alhazen/base/overloaded.h"
+#include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
@@ -64,35 +65,29 @@ ExtentHandles handles_of(const LightExtent& extent) {
     ExtentHandles handles;
     handles.position = LightSurface(extent, false).center();
     std::visit(
-        Overloaded{[&](const RectangleExtent& r) {
-                       handles.direction = normalize(cross(r.edge_u, r.edge_v));
-                       handles.sizes = {{"width", length(r.edge_u)}, {"height", length(r.edge_v)}};
-                   },
-                   [&](const DiscExtent& d) {
-                       handles.direction = d.normal;
-                       handles.sizes = {{"radius", d.radius}, {"inner radius", d.inner_radius}};
-                   },
-                   [&](const SphereExtent& s) {
-                       handles.sizes = {{"radius", s.radius}};
-                   },
-                   [&](const TubeExtent& t) {
-                       handles.direction = normalize(t.top - t.base);
-                       handles.sizes = {{"length", length(t.top - t.base)}, {"radius", t.radius}};
-                   },
-                   [&](const PolygonExtent& p) {
-                       // Newell's normal, valid for any outline.
-                       Vec3 normal;
-                       for (std::size_t i = 0; i < p.vertices.size(); ++i) {
-                           const Vec3& next = p.vertices[(i + 1) % p.vertices.size()];
-                           normal +=
-                               cross(p.vertices[i] - handles.position, next - handles.position);
-                       }
-                       handles.direction = unit_or(normal, {0, 0, 1});
-                       handles.sizes = {{"scale", 1.0}};
-                   },
-                   [&](const MeshExtent&) {
-                       handles.sizes = {{"scale", 1.0}};
-                   }},
+        Overloaded{
+            [&](const RectangleExtent& r) {
+                handles.direction = normalize(cross(r.edge_u, r.edge_v));
+                handles.sizes = {{"width", length(r.edge_u)}, {"height", length(r.edge_v)}};
+            },
+            [&](const DiscExtent& d) {
+                handles.direction = d.normal;
+                handles.sizes = {{"radius", d.radius}, {"inner radius", d.inner_radius}};
+            },
+            [&](const SphereExtent& s) {
+                handles.sizes = {{"radius", s.radius}};
+            },
+            [&](const TubeExtent& t) {
+                handles.direction = normalize(t.top - t.base);
+                handles.sizes = {{"length", length(t.top - t.base)}, {"radius", t.radius}};
+            },
+            [&](const PolygonExtent& p) {
+                handles.direction = unit_or(plane_normal_of_loops(p.vertices, {}), {0, 0, 1});
+                handles.sizes = {{"scale", 1.0}};
+            },
+            [&](const MeshExtent&) {
+                handles.sizes = {{"scale", 1.0}};
+            }},
         extent);
     return handles;
 }

@@ -4,20 +4,12 @@
 #include <cmath>
 
 #include "alhazen/base/overloaded.h"
-#include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/extent_triangles.h"
 
 namespace alhazen {
 
 namespace {
-
-MeshExtent triangles_of(const PolygonExtent& polygon) {
-    MeshExtent mesh{polygon.vertices, {}};
-    std::vector<std::uint32_t> loop(polygon.vertices.size());
-    for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
-    triangulate(mesh.points, loop, mesh.triangles);
-    return mesh;
-}
 
 /// Ranges of directions: squares of the faces of a cube.
 constexpr int kSquares = 8;  ///< along an edge

@@ -41,7 +41,7 @@ struct TubeExtent {
     double radius = 0.05;
     friend bool operator==(const TubeExtent&, const TubeExtent&) = default;
 };
-/// A planar polygon of one loop.
+/// A planar polygon of one loop; inside by the odd-even rule.
 struct PolygonExtent {
     std::vector<Vec3> vertices;
     friend bool operator==(const PolygonExtent&, const PolygonExtent&) = default;

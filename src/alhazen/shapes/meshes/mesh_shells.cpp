@@ -34,7 +34,8 @@ Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
             const Corners& t = mesh.triangles[i];
             for (int k = 0; k < 3; ++k) {
                 const auto [lo, hi] = std::minmax({merged[t[k]], merged[t[k == 2 ? 0 : k + 1]]});
-                visit(lo, Edge{hi, i});
+                // Sides without length connect nothing.
+                if (mesh.positions[lo] != mesh.positions[hi]) visit(lo, Edge{hi, i});
             }
         }
     };
@@ -42,7 +43,7 @@ Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
     std::vector<std::size_t> ends(mesh.positions.size() + 1, 0);
     each_edge([&](std::uint32_t lower, const Edge&) { ++ends[lower + 1]; });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Edge> edges(3 * mesh.triangles.size());
+    std::vector<Edge> edges(ends.back());
     each_edge([&](std::uint32_t lower, const Edge& edge) { edges[ends[lower]++] = edge; });
 
     std::vector<std::uint32_t> parent(mesh.triangles.size());
@@ -87,7 +88,12 @@ std::vector<bool> touching_vertices(const TriangleMesh& mesh, const Shells& shel
     std::vector<std::uint32_t> first(mesh.positions.size(), shells.count);
     std::vector<bool> touching(mesh.positions.size(), false);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (const std::uint32_t corner : mesh.triangles[i]) {
+        const auto [a, b, c] = mesh.triangles[i];
+        // A triangle that is a point is a shell of its own.
+        if (mesh.positions[a] == mesh.positions[b] && mesh.positions[b] == mesh.positions[c]) {
+            continue;
+        }
+        for (const std::uint32_t corner : {a, b, c}) {
             const std::uint32_t v = shells.merged[corner];
             if (first[v] == shells.count) first[v] = shells.of_triangle[i];
             if (first[v] != shells.of_triangle[i]) touching[v] = true;
@@ -147,7 +153,9 @@ bool touches(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q) {
     const Vec3 under = q - box.lo, over = box.hi - q;
     if (std::min({under.x, under.y, under.z, over.x, over.y, over.z}) < 0.0) return false;
     const Vec3 area = cross(b - a, c - a);
-    return std::abs(dot(area, q - a)) <= 1e-12 * length(area) * length(box.size());
+    const double size = length(area);
+    // A triangle without area is part of the sides of others.
+    return size > 0.0 && std::abs(dot(area, q - a)) <= 1e-12 * size * length(box.size());
 }
 
 /// True if some of the inward shells lies where the winding number of the others is not positive.

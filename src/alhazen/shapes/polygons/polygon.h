@@ -4,9 +4,9 @@
 /// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which
 /// the normal is longest).
 /// Differs: the plane's normal is Newell's, over all loops, or where parts of opposite orientation
-/// cancel (a bow tie), that of the largest triangle of the first vertex and the one farthest from
-/// it; the point is projected along the ray instead of an axis, by the shear and the exact edge
-/// signs of geometry/watertight_triangle.h.
+/// cancel (a bow tie), that of a triangle of vertices (geometry/polygon/plane_normal.h); the point
+/// is projected along the ray instead of an axis, by the shear and the exact edge signs of
+/// geometry/watertight_triangle.h.
 /// Polygons that share vertices bit for bit, in one plane or around a solid, thus have no gap and
 /// no double hit: a ray through a shared edge or vertex hits exactly one of them. The plane only
 /// determines t.

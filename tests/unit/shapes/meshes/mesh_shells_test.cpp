@@ -122,6 +122,23 @@ TEST(MeshShells, ShellsThatTouchInAVertexAreTwo) {
     }
 }
 
+TEST(MeshShells, TrianglesWithoutAreaJoinNone) {
+    // The boxes touch in vertices 7 and 8.
+    const TriangleMesh boxes =
+        mesh_of({{{{0, 0, 0}, {2, 2, 2}}, false}, {{{2, 2, 2}, {3, 3, 3}}, true}});
+    const std::vector<std::vector<std::array<std::uint32_t, 3>>> added{
+        {}, {{7, 7, 3}}, {{7, 7, 3}, {8, 8, 9}}, {{7, 8, 3}, {8, 7, 9}}, {{7, 7, 7}, {8, 8, 8}}};
+    for (const auto& triangles : added) {
+        TriangleMesh mesh = boxes;
+        mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
+        EXPECT_TRUE(has_inward_shell(mesh)) << &triangles - added.data();
+    }
+    // Points on all vertices of the inward box.
+    TriangleMesh points = boxes;
+    for (std::uint32_t v = 8; v < 16; ++v) points.triangles.push_back({v, v, v});
+    EXPECT_TRUE(has_inward_shell(points));
+}
+
 TEST(MeshShells, OnlyClosedAndOrientedMeshesHaveAnInside) {
     TriangleMesh open = mesh_of({{kLarge, true}}), crooked = open;
     open.triangles.pop_back();

@@ -6,6 +6,7 @@
 
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
+#include "support/odd_even_area.h"
 #include "support/random_patches.h"
 #include "support/random_shapes.h"
 
@@ -337,6 +338,31 @@ TEST(ShapeTessellation, FacesHaveTheTextureCoordinatesOfTheShape) {
     HeightField field{.columns = 3, .rows = 2, .base = -0.5};
     field.heights = std::make_shared<std::vector<float>>(std::vector<float>{0, 1, 0, 0.5, 0, 0.25});
     check(field);
+}
+
+TEST(ShapeTessellation, TrianglesOfAPolygonThatMeetsItselfCoverItOnce) {
+    const auto area_of = [](const std::vector<Vec3>& loop) {
+        const TriangleMesh mesh = mesh_of(Polygon{.vertices = loop}, 0.01);
+        double sum = 0.0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Vec3 normal =
+                cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+            // On the side of the normals of its corners.
+            EXPECT_GE(dot(normal, mesh.normals[a]), -1e-12);
+            sum += 0.5 * length(normal);
+        }
+        return sum;
+    };
+    for (const testing::LoopOfArea& c : testing::touching_loops()) {
+        EXPECT_NEAR(area_of(c.loop), c.area, 1e-6);
+    }
+    Random random(21);
+    for (int round = 0; round < 2000; ++round) {
+        const std::vector<Vec3> loop = testing::random_loop(random);
+        const double area = testing::odd_even_area(loop);
+        if (!(area > 0.0)) continue;
+        EXPECT_NEAR(area_of(loop), area, 1e-5) << round;
+    }
 }
 
 TEST(ShapeTessellation, FacesOfAPolyhedronInEitherOrderTurnOutward) {
