@@ -230,7 +230,8 @@ bilinear_patch { material = "m"; transform = %s }
         scene = self.write("s.alhazen", """alhazen 1
 texture "t" { file = "dot.png"; wrap_u = mirror; wrap_v = mirror }
 material "m" { diffuse = texture("t") }
-mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 1, 2]] }
+mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 1, 2]]
+    uvs = [(0, 0), (1, 0), (0, 1)] }
 """)
         result = run("convert", scene, self.path("out.obj"))
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -110,7 +110,7 @@ struct HitParts {
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
 /// Differs: the margin is 32 times the bound, which contains the rounding of the next intersection
-/// test, and no less than twice the bound along any axis (docs/design/secondary_rays.md).
+/// test, and no less than 3 times the bound along any axis (docs/design/secondary_rays.md).
 [[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 
@@ -122,7 +122,7 @@ class LeavingRays {
     /// The least bound along the normal, relative to the largest one along an axis. The turned
     /// faces of other parts at the same place round relative to all coordinates, also where those
     /// along the normal are 0.
-    static constexpr double kLeastPart = 0x1p-4;
+    static constexpr double kLeastPart = 0x1.8p-4;
     /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
     static constexpr double kBeyondZero = 0x1p-500;
 
