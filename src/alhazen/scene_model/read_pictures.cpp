@@ -7,22 +7,34 @@
 
 namespace alhazen {
 
-bool reads_pictures(const SceneDescription& description, MaterialId material) {
+namespace {
+
+/// `has_second`: there is a second set of texture coordinates.
+bool reads_first_set(const SceneDescription& description, MaterialId material, bool has_second) {
     const std::vector<TextureId> textures =
         textures_of(description.materials[static_cast<std::size_t>(material)].material);
     return std::any_of(textures.begin(), textures.end(), [&](TextureId id) {
-        return std::holds_alternative<ImageTexture>(
-            description.textures[static_cast<std::size_t>(id)].texture);
+        const auto* picture =
+            std::get_if<ImageTexture>(&description.textures[static_cast<std::size_t>(id)].texture);
+        return picture != nullptr && !(has_second && picture->uv_set == 1);
     });
+}
+
+}  // namespace
+
+bool reads_pictures(const SceneDescription& description, MaterialId material) {
+    return reads_first_set(description, material, false);
 }
 
 bool reads_pictures(const SceneDescription& description, MaterialId material,
                     const TriangleMesh& mesh) {
-    if (mesh.vertex_materials.empty()) return reads_pictures(description, material);
+    const auto reads = [&](MaterialId id) {
+        return reads_first_set(description, id, !mesh.uvs2.empty());
+    };
+    if (mesh.vertex_materials.empty()) return reads(material);
     const std::set<std::uint32_t> own(mesh.vertex_materials.begin(), mesh.vertex_materials.end());
-    return std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
-        return reads_pictures(description, MaterialId{id});
-    });
+    return std::any_of(own.begin(), own.end(),
+                       [&](std::uint32_t id) { return reads(MaterialId{id}); });
 }
 
 }  // namespace alhazen

@@ -9,7 +9,6 @@
 
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
-#include "alhazen/renderers/beam_tracing/pixel_quadrature.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/stopwatch.h"
@@ -88,14 +87,12 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
 }
 
 /// Samples per pixel for the width of texture lookups. With rounds the number is not known in
-/// advance; at most 16 are assumed. Samples that --antialias integrates over the pixel: those of
-/// the smallest parts for `exact`; for `whitted` the four corners that every pixel has.
+/// advance; at most 16 are assumed. With --antialias `exact` the renderer filters over parts of the
+/// pixel itself; with `whitted` the samples are the four corners that every pixel has.
 int samples_of_cone(const RenderOptions& options) {
     constexpr int kLeast = 16;
     constexpr int kCorners = 4;
-    if (options.antialias && options.antialias->exact) {
-        return 1 << (2 * PixelQuadrature::kDeepest);
-    }
+    if (options.antialias && options.antialias->exact) return 1;
     if (options.antialias && options.antialias->step == 0) return kCorners;
     const bool rounds = options.sampling && options.sampling->has_rounds();
     return rounds ? std::min(options.samples_per_pixel, kLeast) : options.samples_per_pixel;

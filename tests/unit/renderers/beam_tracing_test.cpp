@@ -476,7 +476,7 @@ TEST(PixelQuadrature, PeaksWithinAPixelAreIntegratedToTheErrorAskedFor) {
     // A light at a height above the pixel: the integral over a rectangle is that of 1 / r^2
     // cosines.
     const double height = 0.05;
-    const auto lamp = [&](const Vec2& p) {
+    const auto lamp = [&](const Vec2& p, double) {
         const double r = p.x * p.x + p.y * p.y + height * height;
         const double c = height * height / (r * r);
         return Rgb{c, 0.5 * c, 1};

@@ -60,7 +60,7 @@ TEST(Validate, ADielectricHasAnIndex) {
 }
 
 TEST(Validate, PicturesOnMeshesWithoutCoordinatesAreToldOfOnce) {
-    const auto warnings = [](const Texture& texture, bool with_uvs) {
+    const auto warnings = [](const Texture& texture, bool with_uvs, bool with_uvs2 = false) {
         SceneMaker maker;
         maker.description().textures.push_back({"t", texture, {}});
         Material m;
@@ -70,6 +70,7 @@ TEST(Validate, PicturesOnMeshesWithoutCoordinatesAreToldOfOnce) {
         triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         triangle.triangles = {{0, 1, 2}};
         if (with_uvs) triangle.uvs.resize(3);
+        if (with_uvs2) triangle.uvs2.resize(3);
         const MeshIndex mesh = maker.mesh(triangle);
         maker.add(mesh, MaterialId{0});
         maker.add(mesh, MaterialId{0}, Affine::translate({1, 0, 0}));
@@ -84,6 +85,10 @@ TEST(Validate, PicturesOnMeshesWithoutCoordinatesAreToldOfOnce) {
     EXPECT_EQ(warnings(picture, false), 1u);
     EXPECT_EQ(warnings(picture, true), 0u);
     EXPECT_EQ(warnings(SolidTexture{}, false), 0u);
+    EXPECT_EQ(warnings(picture, false, true), 1u);
+    picture.uv_set = 1;
+    EXPECT_EQ(warnings(picture, false), 1u);
+    EXPECT_EQ(warnings(picture, false, true), 0u);
 }
 
 TEST(Validate, IdsOutOfRangeAreErrors) {

@@ -8,9 +8,9 @@
 /// Conventions: the polygon is projected along the longest axis of its normal (polygon_plane.h);
 /// triangles keep its orientation. n vertices always give n - 2 triangles, even if the polygon
 /// touches or crosses itself, so that edges shared with neighbours stay shared. A polygon with a
-/// non-finite coordinate becomes a fan. Complexity and threads: O(n) for convex polygons, O(n log
-/// n) for simple ones of more than 1024 vertices, a bounded number of steps per vertex for all
-/// others (ear_clipper.h); no shared state.
+/// non-finite coordinate becomes a fan.
+/// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 1024
+/// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no shared state.
 
 #include <array>
 #include <cstdint>

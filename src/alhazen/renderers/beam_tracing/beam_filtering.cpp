@@ -108,7 +108,8 @@ class BeamFilterRenderer final : public TileRenderer {
             const double share = rule_of(part_).area;
             if (!(share > kLeastBeamShare)) continue;
             const int column = tile_.x0 + static_cast<int>(c);
-            const Rgb color = quadrature_.mean(part_, [&](const Vec2& at) {
+            const Rgb color = quadrature_.mean(part_, [&](const Vec2& at, double width) {
+                shading_.filter_over(width);
                 shading_.go(piece,
                             {left + (at.x + 0.5) * (right - left), lo + (at.y + 0.5) * (hi - lo)});
                 return shade(column);

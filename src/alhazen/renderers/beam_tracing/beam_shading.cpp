@@ -65,7 +65,8 @@ double BeamShading::meet(std::uint32_t facet, const Ray& ray, const Vec3& from, 
     const Vec3 at = ray.origin + t * ray.direction;
     set_surface_of(facet, ray, t, point_.surface);
     const PointNeeds needs{.constant = &constant_};
-    complete_shading_point(scene_, ray, {way.inside, job_.cone.width_at(t)}, needs, point_);
+    complete_shading_point(scene_, ray, {way.inside, filter_width_ * job_.cone.width_at(t)}, needs,
+                           point_);
     return length(at - from);
 }
 

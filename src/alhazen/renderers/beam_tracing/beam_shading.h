@@ -18,6 +18,8 @@ class BeamShading {
     /// All must outlive the object.
     BeamShading(const RenderJob& job, const BeamScene& scene, const BeamTree& tree);
 
+    /// Textures of further points are filtered over that width, in pixels; at first over a pixel.
+    void filter_over(double width) { filter_width_ = width; }
     /// Moves to a point of a piece, in the window; includes the throughput of the path to it.
     void go(const BeamPiece& piece, const Vec2& at);
     /// Emission and ambient light of the point; the background if there is no facet.
@@ -52,6 +54,7 @@ class BeamShading {
     [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
 
     const RenderJob& job_;
+    double filter_width_ = 1.0;  ///< in widths of the job's cone
     const Scene& scene_;
     const ShadingConventions& conventions_;
     const BeamScene& geometry_;

@@ -91,7 +91,9 @@ class BeamTileRenderer final : public TileRenderer {
                 cut = true;
                 strip_.cut(edges[0], edges[1], part_);
             }
-            row_[column] += s.share * quadrature_.mean(whole ? whole_ : part_, [&](const Vec2& at) {
+            row_[column] += s.share * quadrature_.mean(whole ? whole_ : part_, [&](const Vec2& at,
+                                                                                   double width) {
+                shading_.filter_over(width);
                 shading_.go(piece, {edges[0] + (at.x + 0.5) * (edges[1] - edges[0]),
                                     lo + (at.y + 0.5) * (hi - lo)});
                 return shade(column);

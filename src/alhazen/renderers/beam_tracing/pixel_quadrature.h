@@ -8,7 +8,8 @@
 /// the area, exceeds the requested error, the polygon is cut in four, each with half of that error.
 /// Conventions: coordinates in pixels from the centre of the pixel; a pixel has the area 1. Loops
 /// have the inside on their left. The difference of the rules bounds the error of the higher one if
-/// the colour is smooth; details smaller than the distance of the points may be missed.
+/// the colour is smooth; details smaller than the distance of the points may be missed, but for
+/// those of textures.
 /// Complexity: five colours if that is sufficient, at most 5 (1 + 4 + ... + 4^kDeepest).
 
 #include <algorithm>
@@ -36,11 +37,12 @@ class PixelQuadrature {
     /// `error`: of a pixel's colour.
     explicit PixelQuadrature(double error) : error_(error) {}
 
-    /// `shade(at)` is the colour of a point.
+    /// `shade(at, width)` is the colour of a point, textures filtered over that width: the
+    /// part's, so that no detail of a texture lies between its points.
     template <class Shade>
     [[nodiscard]] Rgb mean(const PixelPolygon& polygon, const Shade& shade) const {
         const PixelRule rule = rule_of(polygon);
-        if (!(rule.area > kLeastArea)) return shade(rule.middle);
+        if (!(rule.area > kLeastArea)) return shade(rule.middle, width_of(rule));
         return (1.0 / rule.area) * integral(polygon, rule, error_, 0, shade);
     }
 
@@ -48,12 +50,17 @@ class PixelQuadrature {
     /// Smaller parts are shaded once.
     static constexpr double kLeastArea = 1e-6;
 
+    [[nodiscard]] static double width_of(const PixelRule& rule) {
+        return std::max(rule.hi.x - rule.lo.x, rule.hi.y - rule.lo.y);
+    }
+
     template <class Shade>
     [[nodiscard]] Rgb integral(const PixelPolygon& polygon, const PixelRule& rule, double error,
                                int depth, const Shade& shade) const {
-        const Rgb lower = shade(rule.middle);
+        const double width = width_of(rule);
+        const Rgb lower = shade(rule.middle, width);
         Rgb sum;
-        for (const Vec2& p : rule.points) sum += 0.25 * shade(p);
+        for (const Vec2& p : rule.points) sum += 0.25 * shade(p, width);
         const Rgb d = sum - lower;
         const double off = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});
         // NaN does not cause a division.

@@ -72,7 +72,25 @@ ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
     media_[kOutside].index = scene.conventions.shading.air_index;
 }
 
-void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
+namespace {
+
+/// Completes the point of a surface that is met instead of another, which it does not yield to.
+class MetInstead final : public SurfaceOptics {
+  public:
+    MetInstead(ExactOptics& optics, const Rgb& tint) : optics_(optics), tint_(tint) {}
+    void set_media(const Arrival& arrival, ShadingPoint& point) override {
+        optics_.set_media(arrival, point, false);
+        point.passing = tint_ * point.passing;
+    }
+
+  private:
+    ExactOptics& optics_;
+    Rgb tint_;  ///< of the other surface
+};
+
+}  // namespace
+
+void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point, bool may_yield) {
     faces_.find(point, -point.view, arrival, arrival.mask);
     if (faces_.opaque()) {
         // Its material bounds no volume: no further faces are looked for.
@@ -82,12 +100,10 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
     const MaterialSample& met = *point.material;
     const Sides sides =
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
-    if (faces_.instead() && yields(point, arrival.medium, sides)) {
-        const Rgb tint = met.thin ? tint_of(met) : Rgb{1, 1, 1};
-        set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
-                          {.optics = this}, point);
-        point.passing = tint * point.passing;
-        return;
+    if (may_yield && faces_.instead() && yields(point, arrival.medium, sides)) {
+        MetInstead other(*this, yielded(met));
+        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
+                                 {.optics = &other}, point);
     }
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
@@ -117,11 +133,22 @@ bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const 
     const MaterialSample& met = *point.material;
     if (met.thin) {
         const Sides all = sides_of_all(nullptr, around, faces_.others());
-        return all.here != all.beyond && met.diffuse.is_black() && met.ambient.is_black() &&
-               met.specular.is_black() && met.emission.is_black();
+        const bool smooth = met.physical ? met.roughness == 0.0 : met.specular.is_black();
+        return all.here != all.beyond && smooth && met.diffuse.is_black() &&
+               met.ambient.is_black() && met.emission.is_black();
     }
     const auto id = static_cast<std::size_t>(point.surface.materials[0]);
     return sides.here == sides.beyond && may_only_bound_volume(scene_.materials[id]);
+}
+
+Rgb ExactOptics::yielded(const MaterialSample& met) const {
+    if (!met.thin) return {1, 1, 1};
+    Rgb left = tint_of(met);
+    for (int i = 0; met.physical && i < 3; ++i) {
+        const double passed = 1.0 - met.reflective[i];
+        left[i] = passed > 0.0 ? std::min(1.0, left[i] / passed) : 0.0;
+    }
+    return left;
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {

@@ -49,7 +49,11 @@ class ExactOptics final : public SurfaceOptics {
 
     /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.
-    void set_media(const Arrival& arrival, ShadingPoint& point) override;
+    void set_media(const Arrival& arrival, ShadingPoint& point) override {
+        set_media(arrival, point, true);
+    }
+    /// `may_yield`: whether a thin sheet or the boundary at its place may be met instead.
+    void set_media(const Arrival& arrival, ShadingPoint& point, bool may_yield);
 
     /// Hides the volume that the surface bounds, if it is part of the medium, from shadow rays.
     void hide(std::uint32_t medium, const Surface& surface);
@@ -92,9 +96,11 @@ class ExactOptics final : public SurfaceOptics {
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
-    /// A face that a ray crosses.
     /// ScatterPoint::yields. `sides`: of the surface.
     [[nodiscard]] bool yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides);
+    /// ScatterPoint::yielded.
+    [[nodiscard]] Rgb yielded(const MaterialSample& met) const;
+    /// A face that a ray crosses.
     struct Face {
         Medium inside;  ///< of a wall behind it
         bool entering = true, wall = false;

@@ -4,7 +4,7 @@
 /// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which
 /// the normal is longest).
 /// Differs: the plane's normal is Newell's, over all loops, or where parts of opposite orientation
-/// cancel (a bow tie), that of a triangle of vertices (geometry/polygon/plane_normal.h); the point
+/// cancel (a bow tie), that of a triangle of vertices (geometry/polygon/polygon_plane.h); the point
 /// is projected along the ray instead of an axis, by the shear and the exact edge signs of
 /// geometry/watertight_triangle.h.
 /// Polygons that share vertices bit for bit, in one plane or around a solid, thus have no gap and

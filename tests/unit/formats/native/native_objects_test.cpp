@@ -45,7 +45,12 @@ TEST(NativeImporter, ReadsPolygonsWithCornersOffThePlaneAsTriangles) {
     EXPECT_EQ(mesh.uvs[0], (Vec2{0, 0}));
     EXPECT_GT(mesh.uvs[2].x, 1.9);
     EXPECT_GT(mesh.uvs[2].y, 1.9);
-    // With a hole it stays what it is.
+    // One that crosses itself stays what it is: triangles on its corners cover more.
+    const Imported bow =
+        import_native("polygon { vertices = [(-1,-1,0), (1,1,0), (1,-1,0), (-1,1,0.01)] }");
+    EXPECT_NE(bow.messages().find("mean plane"), std::string::npos) << bow.messages();
+    EXPECT_EQ(shape_of<Polygon>(bow, 0).vertices.size(), 4u);
+    // With a hole it stays what it is, too.
     const Imported loops = import_native(
         "polygon { loops = [[(0,0,0), (4,0,0), (4,4,1), (0,4,0)], [(1,1,0), (2,1,0), (1,2,0)]] }");
     EXPECT_NE(loops.messages().find("mean plane"), std::string::npos);

@@ -371,6 +371,24 @@ TEST(CoincidentOptics, ShadowRaysCrossFacesOnceAroundASheet) {
 
 /// The volume entered last is the innermost: none of the indices changes where the other is left.
 /// From below it is the other one, with the same reflections.
+/// The eye is in a solid of two media: the wall between them and the sheet on it know other media
+/// before them, and neither is met instead of the other for ever.
+TEST(CoincidentOptics, ASheetOnAWallAroundTheEyeIsMetOnce) {
+    const auto seen = [](double z) {
+        SceneMaker maker = above_a_light();
+        const ObjectIndex solid = maker.object("solid");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(box(0, 1), maker.material(physical({1.5, 1.0})), {}, solid);
+        maker.add(box(1, 2), maker.material(physical({1.5, 2.0})), {}, solid);
+        maker.add(solid);
+        maker.add(square(z), maker.material(clear_sheet(0.5)));
+        maker.description().cameras[0].camera =
+            look_along({0.1, 0.2, 1.5}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
+        return center(maker.compile());
+    };
+    expect_near(seen(1.0), seen(1.0 + 1e-7), 1e-6);
+}
+
 TEST(CoincidentOptics, OverlappingVolumesAreLeftInAnyOrder) {
     const Layer above{1.5, 0, 2}, below{1.7, 0, 2};
     for (const auto material : {&physical, &by_kt}) {

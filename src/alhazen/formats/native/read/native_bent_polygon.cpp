@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <vector>
 
 #include "alhazen/base/number_text.h"
 #include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/geometry/repair/repaired_polygon.h"
 
 namespace alhazen {
 
@@ -32,6 +34,15 @@ std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon) {
     return mesh;
 }
 
+/// True if triangles on the corners do not cover what is inside the loop, seen along the normal.
+bool crosses_itself(const Polygon& polygon) {
+    std::vector<Vec3> flat = polygon.vertices;
+    for (Vec3& p : flat) p = p - dot(p - polygon.point, polygon.normal) * polygon.normal;
+    return repaired_polygon(flat, polygon.loop_ends,
+                            {polygon.normal, dot(polygon.normal, polygon.point)})
+        .crosses;
+}
+
 }  // namespace
 
 void replace_bent_polygon(NativeContext& context, Part& part) {
@@ -41,13 +52,13 @@ void replace_bent_polygon(NativeContext& context, Part& part) {
     Polygon polygon = *given;
     polygon.prepare();
     if (is_flat(polygon.vertices, polygon.normal)) return;
-    const bool one_loop = polygon.loop_ends.size() == 1;
+    const bool is_mesh = polygon.loop_ends.size() == 1 && !crosses_itself(polygon);
     context.diagnostics.warning(
         part.location, "polygon: its corners are not in a plane, but up to " +
                            shortest(polygon.off_plane) + " off: it is " +
-                           (one_loop ? "read as triangles"
-                                     : "met in their mean plane, and as a light not sampled"));
-    if (!one_loop) return;
+                           (is_mesh ? "read as triangles"
+                                    : "met in their mean plane, and as a light not sampled"));
+    if (!is_mesh) return;
     auto mesh = triangles_of(polygon);
     context.count_elements(mesh->positions.size() + mesh->triangles.size(), part.location);
     context.scene.meshes.push_back({part.name, std::move(mesh), part.location, {}});

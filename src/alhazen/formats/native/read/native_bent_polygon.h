@@ -6,8 +6,8 @@
 namespace alhazen {
 
 /// Replaces a polygon of one loop whose corners are off its plane (`is_flat`) by a mesh of its
-/// triangles, with the polygon's texture coordinates; a polygon of several loops stays as it is.
-/// Warns in both cases.
+/// triangles, with the polygon's texture coordinates; a polygon of several loops, or of one that
+/// crosses itself, stays as it is. Warns in both cases.
 void replace_bent_polygon(NativeContext& context, Part& part);
 
 }  // namespace alhazen
