@@ -1,4 +1,4 @@
-#include "alhazen/renderers/light_transport/light_layers.h"
+#include "alhazen/renderers/path_tracing/light_layers.h"
 
 #include <algorithm>
 #include <cmath>
