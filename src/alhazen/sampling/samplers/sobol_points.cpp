@@ -148,15 +148,15 @@ __attribute__((target("avx2"))) void scrambled_points_avx2(const ScrambleTrees& 
 }
 
 /// AVX-512DQ has products of 64-bit words, which AVX2 composes of shorter ones. Registers of 512
-/// bits take half the time of those of 256 (6.2 and 14 ns a point on Zen 5); processors that lower
-/// their clock for them were not measured.
+/// bits take half the time of those of 256 on Zen 5; processors that lower their clock for them
+/// were not measured.
 __attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) void scrambled_points_avx512(
     const ScrambleTrees& trees, std::span<const std::uint64_t> numbers, Vec2* out) {
     scrambled_points_in_lanes<EightWords>(trees, numbers, out);
 }
 
 // Also with products of matrices of bits (GFNI) and bytes that begin at any bit of a word
-// (AVX-512VBMI): no loops over levels, 2.2 ns a point instead of 5.8.
+// (AVX-512VBMI): no loops over levels.
 // GCC's intrinsics begin with a value that is undefined on purpose.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"

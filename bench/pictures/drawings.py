@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares vector drawings with the ray-traced picture: SVG drawn by Chromium, PDF by pdftoppm and pdftocairo.
 
-Usage: bench/drawings.py ALHAZEN [--scene FILE | --size BOXES] [--side N] [--factors K,...] [--rows N] [--keep FOLDER]
+Usage: bench/pictures/drawings.py ALHAZEN [--scene FILE | --size BOXES] [--side N] [--factors K,...] [--rows N] [--keep FOLDER]
 The scene is a city of BOXES boxes (alhazen generate city; default 1667: 10 003 polygons), its side N (512) pixels.
 A pixel differs if a channel at its centre differs by more than 1 % from that of `whitted`. Programs that colour a pixel
 by its centre draw N x N pixels. pdftoppm colours each pixel that a region touches: it draws K times as many along both

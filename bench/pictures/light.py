@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Path tracing beside Cycles of Debian's blender: the same scenes, two threads, equal time.
 
-Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--filter NAME] [--json FILE]
+Usage: bench/pictures/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--filter NAME] [--json FILE]
        [--keep DIR]
 Each renders for T seconds, and for N T seconds to make the reference of its error; prints the difference of both
 references. RMSE is of linear light, unlimited and clamped to 1 (as a picture shows it). Neither program denoises,

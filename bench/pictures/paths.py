@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the part of path tracing that is ray queries: the rays of a picture by the kernels and by the renderer.
 
-Usage: bench/paths.py ALHAZEN PATH_BENCH DATA [--scenes NAME,...] [--keep DIR] [options of alhazen_path_bench]
+Usage: bench/pictures/paths.py ALHAZEN PATH_BENCH DATA [--scenes NAME,...] [--keep DIR] [options of alhazen_path_bench]
 Writes the scenes of light_scenes.py and runs alhazen_path_bench on them (path_bench.cpp describes the measurement).
 """
 

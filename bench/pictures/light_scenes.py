@@ -1,4 +1,4 @@
-"""The scenes of bench/light.py: triangles of matte, glossy and emissive materials, for Alhazen and for Cycles.
+"""The scenes of bench/pictures/light.py: triangles of matte, glossy and emissive materials, for Alhazen and for Cycles.
 
 Coordinates are in metres, z up. A mesh is (material, [vertex], [face]); a glossy surface reflects by GGX with
 alpha = roughness^2.

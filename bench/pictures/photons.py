@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The cognac glass of scenes/light beside POV-Ray and its photons: time and noise, one thread, in turn.
 
-Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--shadows N] [--spp N]
+Usage: bench/pictures/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--shadows N] [--spp N]
                         [--photons N] [--keep DIR]
 Each program is compared with its own references, because their light differs: POV-Ray does not bounce light from wall
 to table here. A reference is the mean of pictures with more photons and samples, whose photons differ from those of the
@@ -23,7 +23,7 @@ import subprocess
 import tempfile
 import zlib
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 GLASS = [("line", (0, 0.004), (0.8, 0.004)), ("curve", (0.8, 0.004), (0.85, 0.004), (0.85, 0.05), (0.8, 0.06)),
          ("curve", (0.8, 0.06), (0.4, 0.1), (0.1, 0.12), (0.1, 0.3)),
          ("curve", (0.1, 0.3), (0.1, 0.42), (0.25, 0.46), (0.45, 0.55)),

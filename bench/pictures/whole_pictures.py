@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole pictures compared with POV-Ray and Tachyon: same scene, 1024x1024, depth 5, one thread, in turn, medians.
 
-Usage: bench/pictures.py ALHAZEN DATA_FOLDER [--json FILE] [--rounds N] [--side N] [--keep FOLDER]
+Usage: bench/pictures/whole_pictures.py ALHAZEN DATA_FOLDER [--json FILE] [--rounds N] [--side N] [--keep FOLDER]
 Peers that are not installed are skipped (scripts/setup --peers installs them).
 """
 

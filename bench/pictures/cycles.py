@@ -1,7 +1,7 @@
-"""Runs within Blender: renders a scene of bench/light_scenes.py with Cycles, or compares pictures.
+"""Runs within Blender: renders a scene of bench/pictures/light_scenes.py with Cycles, or compares pictures.
 
-Usage: blender -b --factory-startup -P bench/cycles.py -- render SCENE OUT.exr WIDTH HEIGHT SECONDS SAMPLES SEED FILTER
-       blender -b --factory-startup -P bench/cycles.py -- compare A.exr B.exr
+Usage: blender -b --factory-startup -P bench/pictures/cycles.py -- render SCENE OUT.exr WIDTH HEIGHT SECONDS SAMPLES SEED FILTER
+       blender -b --factory-startup -P bench/pictures/cycles.py -- compare A.exr B.exr
 SECONDS 0: SAMPLES samples. Plain path tracing: no denoising, clamping, adaptive sampling or blurred caustics.
 `compare` prints the root mean squared difference, that of the values clamped to 1, and the means.
 """

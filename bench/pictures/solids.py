@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares CSG solids and curved surfaces with POV-Ray: same scene, eye rays, flat colours; one thread, medians.
 
-Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--patch-type N] [--flatness X] [--json FILE] [--markdown FILE] [--keep FOLDER]
+Usage: bench/pictures/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--patch-type N] [--flatness X] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE]: plate, menger, spheres (SIZE leaves), or torus, quartic, sextic, blob (one surface).
 teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides up to 2^N
 times each way: with --patch-type 1 (the default) when it reads them, with 0 for every ray; until they are flat to
@@ -88,7 +88,7 @@ def blob_parts():
 
 def teapot_patches():
     """The sixteen points of each bicubic patch, moved in front of the camera."""
-    data = os.environ.get("ALHAZEN_TEST_DATA", os.path.join(os.path.dirname(__file__), "../../shared/data"))
+    data = os.environ.get("ALHAZEN_TEST_DATA", os.path.join(os.path.dirname(__file__), "../../../shared/data"))
     with open(os.path.join(data, "patches/teapot.bpt"), encoding="ascii") as file:
         numbers = list(map(float, file.read().split()))
     place = lambda p: (0.5 * (p[0] - 0.2), 0.5 * p[1], 0.5 * (p[2] - 1.575))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Time from the start of the program to the first ray of a small scene, milliseconds.
 
-Usage: bench/startup.py ALHAZEN [--rounds N] [--threads N]
+Usage: bench/pictures/startup.py ALHAZEN [--rounds N] [--threads N]
 A picture of one pixel: the time of the whole process, less that of writing the picture (as `--stats` tells it). So it
 is an upper bound: shading, the statistics and the exit are in it. The files are in memory (/dev/shm), where that is
 mounted: the wait until a disk has the statistics is no part of a start. Beside it the process /bin/true, which does
