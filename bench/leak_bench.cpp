@@ -11,9 +11,9 @@
 #include <mutex>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/formats/mesh_files/mesh_io.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/session/stopwatch.h"
 #include "command_line.h"
 #include "leak_mesh.h"
 #include "measure.h"

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "alhazen/base/diagnostics.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/load.h"
@@ -27,9 +26,9 @@ using namespace alhazen;
 using namespace alhazen::bench;
 
 double seconds_of(const auto& work) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch time;
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return time.seconds();
 }
 
 /// The mesh of the triangles of a scene, with the view of its patches.

@@ -5,9 +5,9 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/scene_files.h"
-#include "alhazen/session/stopwatch.h"
 #include "alhazen/solids/measure_report.h"
 #include "alhazen/solids/solid_queries_json.h"
 #include "commands.h"

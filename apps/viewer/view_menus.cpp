@@ -18,6 +18,7 @@
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/lighting.h"
 #include "alhazen/session/render.h"
+#include "alhazen/solids/vector_json.h"
 
 namespace alhazen::viewer {
 
@@ -31,10 +32,6 @@ double distance_in_middle(const Scene& scene, const Camera& camera) {
     Hit hit;
     const bool found = scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Eye)});
     return found && std::isfinite(hit.t) ? hit.t : 0.0;
-}
-
-json list_of(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 /// The size of the picture of a camera; of the first if its own is out of range.
@@ -58,8 +55,8 @@ json light_json(const NamedLight& light) {
     json entry{{"name", light.name},
                {"what", light.kind},
                {"color", {light.color.r, light.color.g, light.color.b}}};
-    if (light.position) entry["position"] = list_of(*light.position);
-    if (light.direction) entry["direction"] = list_of(*light.direction);
+    if (light.position) entry["position"] = vector_json(*light.position);
+    if (light.direction) entry["direction"] = vector_json(*light.direction);
     for (const ExtentSize& size : light.sizes) {
         entry["sizes"].push_back({{"name", size.name}, {"value", size.value}});
     }
@@ -81,10 +78,10 @@ json camera_json(const LoadedScene& loaded, const AddedLights& added, std::size_
         frame.height = std::max(1, static_cast<int>(std::lround(frame.width / aspect)));
     }
     json camera{{"name", described.name},
-                {"eye", list_of(plane.eye)},
-                {"look", list_of(plane.forward)},
-                {"right", list_of(plane.right)},
-                {"up", list_of(plane.up)},
+                {"eye", vector_json(plane.eye)},
+                {"look", vector_json(plane.forward)},
+                {"right", vector_json(plane.right)},
+                {"up", vector_json(plane.up)},
                 {"aspect", aspect},
                 {"width", frame.width},
                 {"height", frame.height},

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "alhazen/base/error.h"
-#include "alhazen/session/stopwatch.h"
+#include "alhazen/base/stopwatch.h"
 #include "embree/embree_cylinders.h"
 
 namespace alhazen::bench {

@@ -5,8 +5,8 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/interruption.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/session/stopwatch.h"
 #include "alhazen/solids/measure_report.h"
 #include "alhazen/solids/section_outlines.h"
 #include "array_making.h"

@@ -45,14 +45,6 @@ Rgb intensity_towards(const Light& light, const Vec3& direction) {
     return kPi * sample(plain, position_of(light) + direction, false).intensity;
 }
 
-/// A direction in a cone of this half angle (as cosine) around `axis`, uniform by solid angle.
-Vec3 in_cone(const Vec3& axis, double cosine, const Vec2& u) {
-    const double z = 1.0 - u.x * (1.0 - cosine);
-    const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
-    const Vec3 a = perpendicular(axis), b = cross(axis, a);
-    return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
-}
-
 /// A ray along `direction` from a point of the disc in front of the sphere.
 Ray ray_from_afar(const Vec3& center, double radius, const Vec3& direction, const Vec2& place) {
     const Vec2 p = on_unit_disc(place);
@@ -84,7 +76,7 @@ LightRay emit_from_point(const Light& light, double probability, const Vec2& dir
                          const Wavelengths& waves) {
     LightRay out;
     const double cosine = cosine_of_cone(light);
-    const Vec3 d = in_cone(axis_of_cone(light), cosine, direction);
+    const Vec3 d = direction_in_cone(axis_of_cone(light), 1.0 - cosine, direction);
     out.ray = {position_of(light), d};
     out.normal = d;
     out.radiance = waves.emission(intensity_towards(light, d));

@@ -1,5 +1,8 @@
 #include "alhazen/math/affine.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace alhazen {
 
 Mat3 inverse(const Mat3& m) {
@@ -10,6 +13,17 @@ Mat3 inverse(const Mat3& m) {
     const double det = dot(m.x_axis, r0);
     return {Vec3{r0.x, r1.x, r2.x} / det, Vec3{r0.y, r1.y, r2.y} / det,
             Vec3{r0.z, r1.z, r2.z} / det};
+}
+
+double stretch_bound(const Mat3& m) {
+    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
+    double most = 0;
+    for (const Vec3& a : columns) {
+        double sum = 0;
+        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
+        most = std::max(most, sum);
+    }
+    return (1.0 + 1e-15) * std::sqrt(most);
 }
 
 Affine Affine::scale(const Vec3& factors) {

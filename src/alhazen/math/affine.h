@@ -29,6 +29,9 @@ inline double determinant(const Mat3& m) {
 }
 /// Inverse by cofactors. Not finite for a singular matrix.
 [[nodiscard]] Mat3 inverse(const Mat3& m);
+/// Upper bound of |m v| for vectors of length 1: the root of the largest eigenvalue of m's square,
+/// which is at most the largest sum of a row (Gershgorin).
+[[nodiscard]] double stretch_bound(const Mat3& m);
 
 /// p -> linear * p + translation.
 struct Affine {

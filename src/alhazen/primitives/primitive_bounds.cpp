@@ -105,19 +105,6 @@ struct ClippedTriangle {
     }
 };
 
-/// Upper bound of the stretch of a map: the root of the largest eigenvalue of its square, which is
-/// at most the largest sum of a row (Gershgorin).
-double most_stretch(const Mat3& m) {
-    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
-    double most = 0;
-    for (const Vec3& a : columns) {
-        double sum = 0;
-        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
-        most = std::max(most, sum);
-    }
-    return (1.0 + 1e-15) * std::sqrt(most);
-}
-
 BoundingSphere placed_sphere(const Affine& to_from, const BoundingSphere& sphere) {
     const Vec3 center = to_from.point(sphere.center);
     // Error terms of the center, whose coordinates are sums of four terms.
@@ -125,7 +112,7 @@ BoundingSphere placed_sphere(const Affine& to_from, const BoundingSphere& sphere
                        abs(to_from.linear.y_axis) * std::abs(sphere.center.y) +
                        abs(to_from.linear.z_axis) * std::abs(sphere.center.z) +
                        abs(to_from.translation);
-    return {center, (1.0 + 1e-15) * (most_stretch(to_from.linear) * sphere.radius) +
+    return {center, (1.0 + 1e-15) * (stretch_bound(to_from.linear) * sphere.radius) +
                         2e-15 * max_component(terms)};
 }
 

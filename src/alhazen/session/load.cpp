@@ -9,6 +9,7 @@
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/accel/core/accelerator_settings.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/parallel/thread_start.h"
@@ -16,7 +17,6 @@
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/session/shutter.h"
 #include "alhazen/session/statistics.h"
-#include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
 

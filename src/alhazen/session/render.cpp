@@ -9,9 +9,9 @@
 
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/load.h"
-#include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
 

@@ -8,7 +8,7 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/sampling/random.h"
-#include "alhazen/sampling/sobol.h"
+#include "alhazen/solids/line_through_sphere.h"
 
 namespace alhazen {
 
@@ -27,16 +27,7 @@ std::vector<SurfacePoint> surface_points(const IsolatedSolid& solid, std::uint64
     const double radius = 0.5 * length(box.size());
     std::vector<SurfacePoint> points;
     for (std::uint32_t i = 0; i < kSurfaceLines; ++i) {
-        const double z = 1 - 2 * scrambled_sobol(key, i, 0);
-        const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
-        const double across = std::sqrt(std::max(0.0, 1 - z * z));
-        const Vec3 d{across * std::cos(turn), across * std::sin(turn), z};
-        const Vec3 right = perpendicular(d);
-        const double r = radius * std::sqrt(scrambled_sobol(key, i, 2));
-        const double angle = 2 * kPi * scrambled_sobol(key, i, 3);
-        const Vec3 origin =
-            box.center() + r * std::cos(angle) * right + r * std::sin(angle) * cross(d, right);
-        solid.crossings({origin, d, -kInfinity, kInfinity}, points);
+        solid.crossings(line_through_sphere(key, i, box.center(), radius), points);
     }
     return points;
 }

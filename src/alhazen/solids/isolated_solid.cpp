@@ -40,14 +40,6 @@ Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable&
     return placement;
 }
 
-/// A bound of |m v| for vectors of length 1: the 2-norm is at most the root of the 1-norm times the
-/// maximum norm.
-double largest_stretch(const Affine& m) {
-    const Vec3 x = abs(m.linear.x_axis), y = abs(m.linear.y_axis), z = abs(m.linear.z_axis);
-    const auto sum = [](const Vec3& v) { return v.x + v.y + v.z; };
-    return std::sqrt(std::max({sum(x), sum(y), sum(z)}) * max_component(x + y + z));
-}
-
 /// The largest distance by which crossings may lie outside of patches of the table, in its frame.
 double reach_of_patches(const PrimitiveTable& table) {
     double reach = 0;
@@ -56,8 +48,8 @@ double reach_of_patches(const PrimitiveTable& table) {
             if constexpr (requires { column.shapes[i].tree->reach(); }) {
                 double scale = 1;
                 if (column.placements[i] != kNoPlacement) {
-                    scale =
-                        largest_stretch(table.placements[column.placements[i]].outer_from_inner);
+                    scale = stretch_bound(
+                        table.placements[column.placements[i]].outer_from_inner.linear);
                 }
                 reach = std::max(reach, scale * column.shapes[i].tree->reach());
             }
@@ -147,7 +139,7 @@ double IsolatedSolid::magnitude() const {
     const Affine& in = world_.inner_from_outer;
     const Vec3 world = magnitude_of(out, inner);
     // Lines fill a box that exceeds the patches by their reach on either side.
-    const double reach = largest_stretch(out) * reach_of_patches(aggregate_->primitives());
+    const double reach = stretch_bound(out.linear) * reach_of_patches(aggregate_->primitives());
     return max_component(magnitude_of(out, magnitude_of(in, world))) + 2 * reach / kRounding;
 }
 

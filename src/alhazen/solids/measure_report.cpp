@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/control_characters.h"
+#include "alhazen/solids/vector_json.h"
 
 namespace alhazen {
 
@@ -15,11 +16,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json to_json(const Estimate& e) {
+json estimate_json(const Estimate& e) {
     return {{"value", e.value}, {"interval", {e.lo(), e.hi()}}};
-}
-json to_json(const Vec3& v) {
-    return json::array({v.x, v.y, v.z});
 }
 
 Estimate scaled(double factor, const Estimate& e) {
@@ -43,22 +41,22 @@ json densities_json(const std::vector<std::optional<double>>& densities) {
 json solid_json(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
     json out{{"solid", static_cast<std::uint64_t>(r.solid)}, {"name", r.name}};
-    out["box"] = m.box.empty() ? json(nullptr) : json{to_json(m.box.lo), to_json(m.box.hi)};
-    out["volume"] = to_json(m.volume);
-    out["area"] = to_json(m.area);
-    out["area_by_crofton"] = to_json(m.area_by_crofton);
+    out["box"] = m.box.empty() ? json(nullptr) : json{vector_json(m.box.lo), vector_json(m.box.hi)};
+    out["volume"] = estimate_json(m.volume);
+    out["area"] = estimate_json(m.area);
+    out["area_by_crofton"] = estimate_json(m.area_by_crofton);
     json centroid = json::array(), inertia = json::array(), directions = json::array();
-    for (const Estimate& e : m.centroid) centroid.push_back(to_json(e));
+    for (const Estimate& e : m.centroid) centroid.push_back(estimate_json(e));
     for (const Estimate& e : m.inertia)
-        inertia.push_back(to_json(scaled(r.density().value_or(1), e)));
+        inertia.push_back(estimate_json(scaled(r.density().value_or(1), e)));
     for (std::size_t k = 0; k < 3; ++k) {
-        directions.push_back({{"direction", to_json(m.directions[k])},
-                              {"volume", to_json(m.volume_by_direction[k])}});
+        directions.push_back({{"direction", vector_json(m.directions[k])},
+                              {"volume", estimate_json(m.volume_by_direction[k])}});
     }
     out["centroid"] = m.has_moments ? std::move(centroid) : json(nullptr);
     if (r.density()) {
         out["density"] = *r.density();
-        out["mass"] = to_json(scaled(*r.density(), m.volume));
+        out["mass"] = estimate_json(scaled(*r.density(), m.volume));
     } else if (r.densities.size() > 1) {
         out["densities"] = densities_json(r.densities);
         out["mass"] = nullptr;
@@ -66,7 +64,7 @@ json solid_json(const SolidReport& r) {
     out["inertia_density"] = r.density().value_or(1);
     out["inertia_xx_yy_zz_xy_yz_zx"] = m.has_moments ? std::move(inertia) : json(nullptr);
     if (r.section) {
-        out["section_area"] = to_json(r.section->area);
+        out["section_area"] = estimate_json(r.section->area);
     }
     out["directions"] = std::move(directions);
     out["directions_agree"] = m.directions_agree;
@@ -85,14 +83,14 @@ json pair_json(const PairReport& r) {
              {"b", static_cast<std::uint64_t>(r.b)},
              {"name_b", r.name_b}};
     if (r.overlap) {
-        out["overlap_volume"] = to_json(r.overlap->volume);
+        out["overlap_volume"] = estimate_json(r.overlap->volume);
         out["reached"] = r.overlap->reached;
     }
     if (r.clearance) {
         const Clearance& c = *r.clearance;
-        out["clearance"] = {{"overlap", c.overlap},    {"at_least", c.at_least},
-                            {"at_most", c.at_most},    {"on_a", to_json(c.on_a)},
-                            {"on_b", to_json(c.on_b)}, {"error", c.error}};
+        out["clearance"] = {{"overlap", c.overlap},        {"at_least", c.at_least},
+                            {"at_most", c.at_most},        {"on_a", vector_json(c.on_a)},
+                            {"on_b", vector_json(c.on_b)}, {"error", c.error}};
     }
     return out;
 }
@@ -249,9 +247,9 @@ json measure_json(const MeasureReport& report) {
     out["solids"] = std::move(solids);
     if (report.solids.size() > 1) {
         const Totals all = totals_of(report.solids);
-        out["total"] = {{"volume", to_json(all.volume)}, {"area", to_json(all.area)}};
+        out["total"] = {{"volume", estimate_json(all.volume)}, {"area", estimate_json(all.area)}};
         if (all.with_mass == report.solids.size()) {
-            out["total"]["mass"] = to_json(all.mass);
+            out["total"]["mass"] = estimate_json(all.mass);
         } else if (all.with_mass > 0) {
             out["total"]["mass"] = nullptr;
         }

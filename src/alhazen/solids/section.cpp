@@ -6,6 +6,7 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/shading/spectrum/color_matching.h"
 
 namespace alhazen {
 
@@ -14,10 +15,6 @@ namespace {
 constexpr int kBandRows = 16;
 constexpr std::uint64_t kNoSolid = std::numeric_limits<std::uint64_t>::max();
 constexpr Rgb kPaper{1, 1, 1}, kInk{0.012, 0.012, 0.012};
-
-double brightness(const Rgb& c) {
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
-}
 
 /// The content of one sample of a pixel.
 struct Sample {
@@ -186,10 +183,10 @@ Rgb color_of(const Scene& scene, MaterialId material) {
     Rgb best = sample.albedo;
     // Glass and mirrors have almost no albedo: they show their transmissive or reflective colour.
     for (const Rgb& other : {0.8 * sample.transmissive, 0.8 * sample.reflective, sample.emission}) {
-        if (brightness(best) < 0.05 && brightness(other) > brightness(best)) best = other;
+        if (luminance_of(best) < 0.05 && luminance_of(other) > luminance_of(best)) best = other;
     }
     for (int i = 0; i < 3; ++i) best[i] = std::clamp(best[i], 0.0, 1.0);
-    return brightness(best) < 0.02 ? best + Rgb{0.05, 0.05, 0.05} : best;
+    return luminance_of(best) < 0.02 ? best + Rgb{0.05, 0.05, 0.05} : best;
 }
 
 Image section_picture(const SolidScene& solids, const Scene& scene, const SectionPlane& plane,

@@ -9,7 +9,7 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/sampling/random.h"
-#include "alhazen/sampling/sobol.h"
+#include "alhazen/solids/line_through_sphere.h"
 #include "alhazen/solids/stratified_chords.h"
 
 namespace alhazen {
@@ -295,15 +295,7 @@ class Measurer {
         double sum = 0;
         for (std::uint32_t i = 0; i < lines; ++i) {
             interruption_point();
-            const double z = 1 - 2 * scrambled_sobol(key, i, 0);
-            const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
-            const double across = std::sqrt(std::max(0.0, 1 - z * z));
-            const Vec3 d{across * std::cos(turn), across * std::sin(turn), z};
-            const Vec3 right = perpendicular(d);
-            const double r = radius * std::sqrt(scrambled_sobol(key, i, 2));
-            const double angle = 2 * kPi * scrambled_sobol(key, i, 3);
-            const Vec3 offset = r * std::cos(angle) * right + r * std::sin(angle) * cross(d, right);
-            solid_.cross({center_ + offset, d}, false, found);
+            solid_.cross(line_through_sphere(key, i, center_, radius), false, found);
             sum += 2.0 * static_cast<double>(found.spans.size());
         }
         return sum / lines;

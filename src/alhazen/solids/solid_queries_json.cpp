@@ -6,6 +6,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/ray_scale.h"
+#include "alhazen/solids/vector_json.h"
 
 namespace alhazen {
 
@@ -13,27 +14,20 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json number(double x) {
-    return std::isfinite(x) ? json(x) : json(nullptr);
-}
-json vector(const Vec3& v) {
-    return json::array({number(v.x), number(v.y), number(v.z)});
-}
-
 json ray_json(const Ray& ray) {
-    json out{{"origin", vector(ray.origin)}, {"direction", vector(ray.direction)}};
+    json out{{"origin", vector_json(ray.origin)}, {"direction", vector_json(ray.direction)}};
     if (ray.t_min != 0.0 || std::isfinite(ray.t_max)) {
-        out["t_min"] = number(ray.t_min);
-        out["t_max"] = number(ray.t_max);
+        out["t_min"] = number_json(ray.t_min);
+        out["t_max"] = number_json(ray.t_max);
     }
     return out;
 }
 
 json end_json(const SolidScene& scene, const SpanEnd& end, const SpanSurface& surface) {
-    json out{{"t", number(end.t)}};
-    if (end.is_crossing || std::isfinite(end.t)) out["point"] = vector(surface.point);
+    json out{{"t", number_json(end.t)}};
+    if (end.is_crossing || std::isfinite(end.t)) out["point"] = vector_json(surface.point);
     if (end.is_crossing) {
-        out["normal"] = vector(surface.normal);
+        out["normal"] = vector_json(surface.normal);
         out["material"] = scene.material_name(surface.material);
     } else {
         out["inside"] = true;
@@ -58,7 +52,7 @@ json spans_json(const SolidScene& scene, const Ray& ray, std::span<const SolidSp
         const SolidSpan& span = spans[i];
         list.push_back({{"solid", static_cast<std::uint64_t>(span.solid)},
                         {"name", scene.name(span.solid)},
-                        {"length", number(scale * (measured[i].exit.t - measured[i].entry.t))},
+                        {"length", number_json(scale * (measured[i].exit.t - measured[i].entry.t))},
                         {"entry", end_json(scene, span.entry, queries.entry_surface(ray, span))},
                         {"exit", end_json(scene, span.exit, queries.exit_surface(ray, span))}});
     }
@@ -68,12 +62,12 @@ json spans_json(const SolidScene& scene, const Ray& ray, std::span<const SolidSp
 
 json thickness_json(const SolidScene& scene, const Ray& ray, const Thickness& thickness) {
     json out = ray_json(ray);
-    out["thickness"] = number(thickness.inside_any);
+    out["thickness"] = number_json(thickness.inside_any);
     json list = json::array();
     for (const Thickness::OfSolid& one : thickness.of_solid) {
         list.push_back({{"solid", static_cast<std::uint64_t>(one.solid)},
                         {"name", scene.name(one.solid)},
-                        {"thickness", number(one.length)}});
+                        {"thickness", number_json(one.length)}});
     }
     out["solids"] = std::move(list);
     return out;
@@ -86,7 +80,7 @@ json inside_json(const SolidScene& scene, const Vec3& point, std::span<const Con
                         {"name", scene.name(one.solid)},
                         {"on_surface", one.on_surface}});
     }
-    return {{"point", vector(point)}, {"inside", std::move(list)}};
+    return {{"point", vector_json(point)}, {"inside", std::move(list)}};
 }
 
 std::vector<double> parse_numbers(const std::string& text,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -40,11 +39,6 @@ constexpr float kWeightOfGuess = 0.1f;
 /// Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
 /// cases.
 constexpr double kRuleOfThree = 3.0;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// Adds the span a < t < b of the line o + t d, |d| = 1, with a weight.
 void add_span(const Vec3& o, const Vec3& d, double a, double b, double weight, Moments& m) {
@@ -353,8 +347,7 @@ void check_relative_error(double error) {
                 fmt::format("the relative error is {}; expected a number from 0", error));
 }
 
-Deadline::Deadline(double seconds, const StopFlag* stop)
-    : seconds_(seconds), stop_(stop), begin_(now()) {
+Deadline::Deadline(double seconds, const StopFlag* stop) : seconds_(seconds), stop_(stop) {
     // A share of NaN seconds would be any number of lines.
     if (seconds >= 0) return;
     throw Error(ErrorKind::Usage,
@@ -363,8 +356,7 @@ Deadline::Deadline(double seconds, const StopFlag* stop)
 
 double Deadline::room(double lines_done) const {
     if (stop_ != nullptr && stop_->requested()) return 0;
-    const double elapsed = now() - begin_;
-    return lines_done * (seconds_ / elapsed - 1);
+    return lines_done * (seconds_ / time_.seconds() - 1);
 }
 
 Estimate with_rounding(Estimate estimate, double rounding) {

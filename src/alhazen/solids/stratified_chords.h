@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "alhazen/base/progress.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/sampling/confidence.h"
 #include "alhazen/solids/chord_cells.h"
 #include "alhazen/solids/isolated_solid.h"
@@ -153,7 +154,7 @@ class Deadline {
   private:
     double seconds_;
     const StopFlag* stop_;
-    double begin_;
+    Stopwatch time_;
 };
 
 /// Throws Error (Usage) unless the requested error is a number from 0.

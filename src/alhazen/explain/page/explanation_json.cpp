@@ -27,15 +27,15 @@ class TreeWriter {
         json out{{"id", ++count_},
                  {"kind", kRayKindNames[static_cast<std::size_t>(ray.kind)]},
                  {"depth", ray.depth},
-                 {"origin", to_json(ray.ray.origin)},
-                 {"direction", to_json(ray.ray.direction)},
+                 {"origin", vector_json(ray.ray.origin)},
+                 {"direction", vector_json(ray.ray.direction)},
                  {"inside", ray.inside},
-                 {"radiance", to_json(ray.radiance)},
-                 {"weight", to_json(weight)},
-                 {"in_pixel", to_json(weight * ray.radiance)},
+                 {"radiance", color_json(ray.radiance)},
+                 {"weight", color_json(weight)},
+                 {"in_pixel", color_json(weight * ray.radiance)},
                  {"escaped", ray.escaped}};
         if (ray.given_up) out["given_up"] = true;
-        if (ray.escaped || ray.given_up) out["left"] = to_json(ray.left);
+        if (ray.escaped || ray.given_up) out["left"] = color_json(ray.left);
         out["surfaces"] = json::array();
         for (const SurfaceNode& s : ray.surfaces) out["surfaces"].push_back(surface(s, weight));
         return out;
@@ -44,49 +44,49 @@ class TreeWriter {
   private:
     json surface(const SurfaceNode& s, const Rgb& weight) {
         json out{{"t", s.t},
-                 {"point", to_json(s.point)},
-                 {"normal", to_json(s.normal)},
+                 {"point", vector_json(s.point)},
+                 {"normal", vector_json(s.normal)},
                  {"object", name_in(e_.part_names, s.part)},
                  {"material", name_in(e_.material_names, s.material)},
                  {"entering", s.entering},
                  {"unlit", !s.lit},
-                 {"share", to_json(s.share)},
-                 {"kd", to_json(s.kd)},
-                 {"ks", to_json(s.ks)},
-                 {"kr", to_json(s.kr)},
-                 {"kt", to_json(s.kt)},
+                 {"share", color_json(s.share)},
+                 {"kd", color_json(s.kd)},
+                 {"ks", color_json(s.ks)},
+                 {"kr", color_json(s.kr)},
+                 {"kt", color_json(s.kt)},
                  {"shininess", s.shininess},
                  {"index", s.index},
-                 {"emission", to_json(s.emission)}};
+                 {"emission", color_json(s.emission)}};
         if (s.lit) add_terms(s, weight, out);
-        out["color"] = to_json(color_of(s));
+        out["color"] = color_json(color_of(s));
         return out;
     }
 
     void add_terms(const SurfaceNode& s, const Rgb& weight, json& out) {
-        out["ambient_factor"] = to_json(s.ambient_factor);
+        out["ambient_factor"] = color_json(s.ambient_factor);
         out["ambient"] = json::array();
         for (std::size_t i = 0; i < s.ambient.size(); ++i) {
             if (s.ambient[i].is_black()) continue;
             out["ambient"].push_back({{"light", name_in(e_.light_names, i)},
-                                      {"intensity", to_json(s.ambient[i])},
-                                      {"value", to_json(s.ambient_factor * s.ambient[i])}});
+                                      {"intensity", color_json(s.ambient[i])},
+                                      {"value", color_json(s.ambient_factor * s.ambient[i])}});
         }
         out["lights"] = json::array();
         for (const LightTerm& term : s.lights) out["lights"].push_back(light(term));
-        out["direct"] = to_json(s.direct);
+        out["direct"] = color_json(s.direct);
         const Rgb onward = weight * s.share * s.filter;
         add_ray("reflected", s.reflected, s.reflected_factor, s.no_reflected, onward, out);
         add_ray("refracted", s.refracted, s.refracted_factor, s.no_refracted, onward, out);
-        if (s.filtered) out["filter"] = to_json(s.filter);
+        if (s.filtered) out["filter"] = color_json(s.filter);
     }
 
     void add_ray(const char* key, const std::vector<RayNode>& child, const Rgb& factor,
                  NotSent reason, const Rgb& onward, json& out) {
         json term{{"reason", kNotSentNames[static_cast<std::size_t>(reason)]}};
         if (!child.empty()) {
-            term["factor"] = to_json(factor);
-            term["value"] = to_json(factor * child.front().radiance);
+            term["factor"] = color_json(factor);
+            term["value"] = color_json(factor * child.front().radiance);
             term["ray"] = ray(child.front(), onward * factor);
         }
         out[key] = std::move(term);
@@ -97,18 +97,19 @@ class TreeWriter {
         for (const LightTerm::Crossing& c : term.crossings) {
             crossings.push_back({{"t", c.t}, {"object", name_in(e_.part_names, c.part)}});
         }
-        return {{"light", name_in(e_.light_names, term.light)},
-                {"cosine", term.cosine},
-                {"intensity", to_json(term.intensity)},
-                {"diffuse", to_json(term.diffuse)},
-                {"highlight", to_json(term.highlight)},
-                {"through", to_json(term.through)},
-                {"value", to_json(term.through * term.intensity * (term.diffuse + term.highlight))},
-                {"cast", term.cast},
-                {"origin", to_json(term.shadow.origin)},
-                {"direction", to_json(term.shadow.direction)},
-                {"t", term.shadow.t_max},
-                {"crossings", std::move(crossings)}};
+        return {
+            {"light", name_in(e_.light_names, term.light)},
+            {"cosine", term.cosine},
+            {"intensity", color_json(term.intensity)},
+            {"diffuse", color_json(term.diffuse)},
+            {"highlight", color_json(term.highlight)},
+            {"through", color_json(term.through)},
+            {"value", color_json(term.through * term.intensity * (term.diffuse + term.highlight))},
+            {"cast", term.cast},
+            {"origin", vector_json(term.shadow.origin)},
+            {"direction", vector_json(term.shadow.direction)},
+            {"t", term.shadow.t_max},
+            {"crossings", std::move(crossings)}};
     }
 
     const Explanation& e_;
@@ -219,8 +220,8 @@ std::string explanation_json(const Explanation& e, int indent) {
              {"max_depth", e.max_depth},
              {"cut", e.max_depth < e.wished_depth ? json(e.max_depth) : json(false)},
              {"min_contribution", e.min_contribution},
-             {"background", to_json(e.background)},
-             {"pixel", to_json(e.pixel)},
+             {"background", color_json(e.background)},
+             {"pixel", color_json(e.pixel)},
              {"rays",
               {{"eye", census.eye},
                {"shadow", census.shadow},
@@ -229,10 +230,10 @@ std::string explanation_json(const Explanation& e, int indent) {
     out["samples"] = json::array();
     for (const PixelSample& s : e.samples) {
         out["samples"].push_back(
-            {{"place", {s.place.x, s.place.y}}, {"radiance", to_json(s.radiance)}});
+            {{"place", {s.place.x, s.place.y}}, {"radiance", color_json(s.radiance)}});
     }
     out["picture"] = json::array();
-    for (const Vec3& corner : e.picture) out["picture"].push_back(to_json(corner));
+    for (const Vec3& corner : e.picture) out["picture"].push_back(vector_json(corner));
     out["parallel"] = e.parallel;
     out["tree"] = TreeWriter(e).ray(e.tree, {1, 1, 1});
     out["solids"] = solids_json(e.spans);

@@ -11,31 +11,35 @@ json cone_json(const ConeNode& node, const std::vector<std::string>& lights);
 json cone_part_json(const ConePart& part, const std::vector<std::string>& lights) {
     json cones = json::array();
     for (const ConeNode& cone : part.cones) cones.push_back(cone_json(cone, lights));
-    return {{"object", part.object},        {"t", part.t},
-            {"point", to_json(part.point)}, {"at", {rounded(part.at.x), rounded(part.at.y)}},
-            {"share", part.share},          {"weight", part.weight},
-            {"radius", part.radius},        {"color", to_json(part.color)},
+    return {{"object", part.object},
+            {"t", part.t},
+            {"point", vector_json(part.point)},
+            {"at", {rounded(part.at.x), rounded(part.at.y)}},
+            {"share", part.share},
+            {"weight", part.weight},
+            {"radius", part.radius},
+            {"color", color_json(part.color)},
             {"cones", std::move(cones)}};
 }
 
 json cone_json(const ConeNode& node, const std::vector<std::string>& lights) {
     json out{{"kind", kRayKindNames[static_cast<std::size_t>(node.kind)]},
              {"depth", node.depth},
-             {"origin", to_json(node.cone.origin)},
-             {"axis", to_json(node.cone.axis)},
+             {"origin", vector_json(node.cone.origin)},
+             {"axis", vector_json(node.cone.axis)},
              {"radius", node.cone.radius},
              {"spread", node.cone.spread},
              {"narrowed", node.narrowed},
              {"length", node.length}};
     if (node.kind == RayKind::Shadow) {
-        out["through"] = to_json(node.radiance);
+        out["through"] = color_json(node.radiance);
         out["light"] = node.to.light < lights.size() ? lights[node.to.light] : std::string();
         out["part"] = node.to.part + 1;
         out["part_count"] = node.to.parts;
         out["weight"] = node.to.weight;
         return out;
     }
-    out["radiance"] = to_json(node.radiance);
+    out["radiance"] = color_json(node.radiance);
     out["left"] = node.left;
     out["parts"] = json::array();
     for (const ConePart& part : node.parts) {
@@ -60,7 +64,7 @@ json beam_part_json(const BeamPart& part, const std::vector<std::string>& lights
         json out{{"light", l.light < lights.size() ? lights[l.light] : std::string()},
                  {"through", l.through},
                  {"here", l.holds_sample}};
-        if (l.holds_sample) out["color"] = to_json(l.color);
+        if (l.holds_sample) out["color"] = color_json(l.color);
         if (part.share > 0.0) out["outline"] = outline_json(l.outline);
         lit.push_back(std::move(out));
     }
@@ -72,7 +76,7 @@ json beam_part_json(const BeamPart& part, const std::vector<std::string>& lights
              {"background", part.background},
              {"share", part.share},
              {"here", part.holds_sample}};
-    if (part.holds_sample) out["own"] = to_json(part.own);
+    if (part.holds_sample) out["own"] = color_json(part.own);
     out["outline"] = outline_json(part.outline);
     out["lights"] = std::move(lit);
     return out;
@@ -115,7 +119,7 @@ json beams_json(const BeamExplanation& beams, const std::vector<std::string>& li
             {"beams", beams.beams},
             {"from", {beams.from.x, beams.from.y}},
             {"to", {beams.to.x, beams.to.y}},
-            {"color", to_json(beams.color)},
+            {"color", color_json(beams.color)},
             {"left_out", beams.left_out},
             {"pieces", std::move(parts)}};
 }
@@ -125,28 +129,28 @@ json path_json(const PathRecord& path, const std::vector<std::string>& part_name
     json vertices = json::array();
     for (const RecordedVertex& v : path.vertices) {
         json out{{"kind", kRayKindNames[static_cast<std::size_t>(v.kind)]},
-                 {"origin", to_json(v.ray.origin)},
-                 {"direction", to_json(v.ray.direction)},
+                 {"origin", vector_json(v.ray.origin)},
+                 {"direction", vector_json(v.ray.direction)},
                  {"t", v.t},
-                 {"throughput", to_json(v.throughput)},
-                 {"found", to_json(v.found)},
+                 {"throughput", color_json(v.throughput)},
+                 {"found", color_json(v.found)},
                  {"step", kPathStepNames[static_cast<std::size_t>(v.step)]}};
         if (std::isfinite(v.t)) out["in_volume"] = v.in_volume;
         if (v.has_surface) {
             out["object"] = part_names[v.part];
             out["material"] = material_names[v.material];
-            out["normal"] = to_json(v.normal);
+            out["normal"] = vector_json(v.normal);
         }
         if (v.asked_light) {
-            out["light"] = {{"origin", to_json(v.shadow.origin)},
-                            {"direction", to_json(v.shadow.direction)},
+            out["light"] = {{"origin", vector_json(v.shadow.origin)},
+                            {"direction", vector_json(v.shadow.direction)},
                             {"t", v.shadow.t_max},
-                            {"offered", to_json(v.offered)},
-                            {"arrived", to_json(v.arrived)}};
+                            {"offered", color_json(v.offered)},
+                            {"arrived", color_json(v.arrived)}};
         }
         vertices.push_back(std::move(out));
     }
-    return {{"radiance", to_json(path.radiance)}, {"vertices", std::move(vertices)}};
+    return {{"radiance", color_json(path.radiance)}, {"vertices", std::move(vertices)}};
 }
 
 }  // namespace alhazen

@@ -11,13 +11,11 @@
 #include "alhazen/explain/cones/cone_explanation.h"
 #include "alhazen/explain/patches/patch_subdivision.h"
 #include "alhazen/renderers/core/path_record.h"
+#include "alhazen/solids/vector_json.h"
 
 namespace alhazen {
 
-inline nlohmann::ordered_json to_json(const Vec3& v) {
-    return {v.x, v.y, v.z};
-}
-inline nlohmann::ordered_json to_json(const Rgb& c) {
+inline nlohmann::ordered_json color_json(const Rgb& c) {
     return {c.r, c.g, c.b};
 }
 /// Rounds to six digits, for data that are only drawn.

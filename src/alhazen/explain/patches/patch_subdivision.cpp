@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/shapes_on_ray.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/shapes/patches/bezier_patch.h"
 #include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
@@ -17,22 +18,7 @@ namespace {
 
 constexpr double kPixelOfPatch = 0x1p-10;
 constexpr int kDeepestPart = 16;
-constexpr std::size_t kMostPatchParts = 4000;
-
-bool box_meets(const Box3& box, const Ray& ray) {
-    double from = 0.0, to = kInfinity;
-    for (int k = 0; k < 3; ++k) {
-        const double d = ray.direction[k], lo = box.lo[k] - ray.origin[k],
-                     hi = box.hi[k] - ray.origin[k];
-        if (d == 0.0) {
-            if (lo > 0.0 || hi < 0.0) return false;
-            continue;
-        }
-        from = std::max(from, (d > 0.0 ? lo : hi) / d);
-        to = std::min(to, (d > 0.0 ? hi : lo) / d);
-    }
-    return from <= to;
-}
+constexpr std::size_t kMostPatchParts = 4000, kMostPatches = 6;
 
 /// Subdivides breadth first, so that the limit cuts off the finest parts.
 void subdivide(const BezierNet& whole, const Ray& ray, PatchSubdivision& result) {
@@ -51,7 +37,7 @@ void subdivide(const BezierNet& whole, const Ray& ray, PatchSubdivision& result)
             }
             PatchPart part = w.part;
             const Box3 box = control_box(w.net);
-            part.met = box_meets(box, ray);
+            part.met = meets_ahead(box, ray);
             result.parts.push_back(part);
             if (!part.met || part.level == kDeepestPart || max_component(box.size()) <= pixel) {
                 continue;
@@ -76,19 +62,22 @@ class PatchFinder {
     PatchFinder(const LoadedScene& loaded, std::vector<PatchSubdivision>& found)
         : loaded_(loaded), found_(found) {}
 
-    /// Visits a table; `ray` is in its frame. Recursion ends with the nesting of instances.
-    void look(const PrimitiveTable& table, const Ray& ray) {
-        std::apply([&](const auto&... column) { (look_at(table, column, ray), ...); },
-                   table.columns);
-        for (const Instance& instance : table.instances) {
-            const Ray inner = inner_ray(instance, ray);
-            if (!box_meets(instance.aggregate->box(), inner)) continue;
-            look(instance.aggregate->primitives(), inner);
+    template <PatchShape Shape>
+    void operator()(const Shape& shape, Ray ray, std::uint32_t part) {
+        ray.t_min = 0.0;
+        ray.t_max = kInfinity;
+        const PatchTree& tree = *shape.tree;
+        if (!meets_ahead(tree.box(), ray)) return;
+        ShapeHits hits;
+        shape.intersect(ray, hits);
+        for (std::size_t k = 0; k < tree.pieces().size(); ++k) {
+            add(tree.pieces()[k], k, ray, hits,
+                {Shape::kName, part_name(loaded_.description, part)});
         }
     }
 
-    /// Keeps the first `most` patches, and subdivides them.
-    void finish(std::size_t most) {
+    /// Keeps the first kMostPatches patches, and subdivides them.
+    void finish() {
         std::vector<std::size_t> order(found_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
         const auto first = [&](std::size_t i) {
@@ -96,7 +85,7 @@ class PatchFinder {
         };
         std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t a, std::size_t b) { return first(a) < first(b); });
-        if (order.size() > most) order.resize(most);
+        if (order.size() > kMostPatches) order.resize(kMostPatches);
         std::vector<PatchSubdivision> kept;
         for (const std::size_t i : order) {
             subdivide(nets_[i].first, nets_[i].second, found_[i]);
@@ -106,32 +95,9 @@ class PatchFinder {
     }
 
   private:
-    template <class Shape>
-    void look_at(const PrimitiveTable&, const ShapeColumn<Shape>&, const Ray&) {}
-    template <PatchShape Shape>
-    void look_at(const PrimitiveTable& table, const ShapeColumn<Shape>& column, const Ray& ray) {
-        for (std::size_t i = 0; i < column.shapes.size(); ++i) {
-            const std::uint32_t placement = column.placements[i];
-            Ray inner = placement == kNoPlacement
-                            ? ray
-                            : transformed(table.placements[placement].inner_from_outer, ray);
-            inner.t_min = 0.0;
-            inner.t_max = kInfinity;
-            const PatchTree& tree = *column.shapes[i].tree;
-            if (!box_meets(tree.box(), inner)) continue;
-            ShapeHits hits;
-            column.shapes[i].intersect(inner, hits);
-            const std::uint32_t part = column.parts.empty() ? 0 : column.parts[i];
-            for (std::size_t k = 0; k < tree.pieces().size(); ++k) {
-                add(tree.pieces()[k], k, inner, hits,
-                    {Shape::kName, part_name(loaded_.description, part)});
-            }
-        }
-    }
-
     void add(const BezierPiece& piece, std::size_t number, const Ray& ray, const ShapeHits& hits,
              std::pair<std::string, std::string> names) {
-        if (!box_meets(control_box(piece.net), ray)) return;
+        if (!meets_ahead(control_box(piece.net), ray)) return;
         PatchSubdivision& result = found_.emplace_back();
         result.shape = std::move(names.first);
         result.part = std::move(names.second);
@@ -154,12 +120,11 @@ class PatchFinder {
 
 }  // namespace
 
-std::vector<PatchSubdivision> patch_subdivisions(const LoadedScene& loaded, const Ray& ray,
-                                                 std::size_t most) {
+std::vector<PatchSubdivision> patch_subdivisions(const LoadedScene& loaded, const Ray& ray) {
     std::vector<PatchSubdivision> found;
     PatchFinder finder(loaded, found);
-    finder.look(loaded.scene.aggregate->primitives(), ray);
-    finder.finish(most);
+    visit_shapes_on_ray(loaded.scene.aggregate->primitives(), ray, finder);
+    finder.finish();
     return found;
 }
 

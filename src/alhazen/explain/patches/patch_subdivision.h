@@ -37,10 +37,9 @@ struct PatchSubdivision {
     std::vector<Crossing> crossings;  ///< ascending; t >= 0
 };
 
-/// At most `most` of the patches whose boxes the ray meets: those with crossings first, ordered by
+/// At most six of the patches whose boxes the ray meets: those with crossings first, ordered by
 /// their first crossing.
 [[nodiscard]] std::vector<PatchSubdivision> patch_subdivisions(const LoadedScene& loaded,
-                                                               const Ray& ray,
-                                                               std::size_t most = 6);
+                                                               const Ray& ray);
 
 }  // namespace alhazen

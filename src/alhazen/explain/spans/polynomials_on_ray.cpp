@@ -9,6 +9,7 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/shapes_on_ray.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/shapes/algebraic/polynomial_expression.h"
 
@@ -83,22 +84,6 @@ LocalEquation equation_of(const Algebraic& surface) {
     return {surface.expression, SolidFrame()};
 }
 
-/// The range of t in a box; empty if the line misses it.
-Interval range_in(const Box3& box, const Ray& ray) {
-    Interval range{-kInfinity, kInfinity};
-    for (int k = 0; k < 3; ++k) {
-        const double d = ray.direction[k], lo = box.lo[k] - ray.origin[k],
-                     hi = box.hi[k] - ray.origin[k];
-        if (d == 0.0) {
-            if (lo > 0.0 || hi < 0.0) return {kInfinity, -kInfinity};
-            continue;
-        }
-        range.lo = std::max(range.lo, (d > 0.0 ? lo : hi) / d);
-        range.hi = std::min(range.hi, (d > 0.0 ? hi : lo) / d);
-    }
-    return range;
-}
-
 double value_at(const PolynomialOnRay& p, double t) {
     std::vector<double> b = p.bernstein;
     const double u = (t - p.from) / (p.to - p.from);
@@ -132,51 +117,26 @@ std::vector<double> sign_changes(const PolynomialOnRay& p) {
     return found;
 }
 
-class Finder {
+class PolynomialFinder {
   public:
-    Finder(const LoadedScene& loaded, std::vector<PolynomialOnRay>& found)
+    PolynomialFinder(const LoadedScene& loaded, std::vector<PolynomialOnRay>& found)
         : loaded_(loaded), found_(found) {}
 
-    /// Visits a table; `ray` is in its frame. Recursion ends with the nesting of instances.
-    void look(const PrimitiveTable& table, const Ray& ray) {
-        std::apply([&](const auto&... column) { (look_at(table, column, ray), ...); },
-                   table.columns);
-        for (const Instance& instance : table.instances) {
-            const Ray inner = inner_ray(instance, ray);
-            if (!meets(instance.aggregate->box(), inner)) continue;
-            look(instance.aggregate->primitives(), inner);
+    template <AlgebraicShape Shape>
+    void operator()(const Shape& shape, const Ray& ray, std::uint32_t part) {
+        if (!meets_ahead(shape.box(), ray)) return;
+        const LocalEquation equation = equation_of(shape);
+        PolynomialOnRay p;
+        p.shape = Shape::kName;
+        p.part = part_name(loaded_.description, part);
+        p.expression = equation.text;
+        set_roots(shape, ray, p);
+        if (set_coefficients(equation, range_in(shape.box(), ray), ray, p)) {
+            found_.push_back(std::move(p));
         }
     }
 
   private:
-    static bool meets(const Box3& box, const Ray& ray) {
-        const Interval range = range_in(box, ray);
-        return range.lo <= range.hi && range.hi > 0.0;
-    }
-
-    template <class Shape>
-    void look_at(const PrimitiveTable&, const ShapeColumn<Shape>&, const Ray&) {}
-    template <AlgebraicShape Shape>
-    void look_at(const PrimitiveTable& table, const ShapeColumn<Shape>& column, const Ray& ray) {
-        for (std::size_t i = 0; i < column.shapes.size(); ++i) {
-            const std::uint32_t placement = column.placements[i];
-            const Ray inner = placement == kNoPlacement
-                                  ? ray
-                                  : transformed(table.placements[placement].inner_from_outer, ray);
-            const Shape& shape = column.shapes[i];
-            if (!meets(shape.box(), inner)) continue;
-            const LocalEquation equation = equation_of(shape);
-            PolynomialOnRay p;
-            p.shape = Shape::kName;
-            p.part = part_name(loaded_.description, column.parts.empty() ? 0 : column.parts[i]);
-            p.expression = equation.text;
-            set_roots(shape, inner, p);
-            if (set_coefficients(equation, range_in(shape.box(), inner), inner, p)) {
-                found_.push_back(std::move(p));
-            }
-        }
-    }
-
     /// Sets the crossings of the surface itself (part 0).
     template <class Shape>
     static void set_roots(const Shape& shape, const Ray& ray, PolynomialOnRay& p) {
@@ -241,16 +201,16 @@ class Finder {
 
 }  // namespace
 
-std::vector<PolynomialOnRay> polynomials_on_ray(const LoadedScene& loaded, const Ray& ray,
-                                                std::size_t most) {
+std::vector<PolynomialOnRay> polynomials_on_ray(const LoadedScene& loaded, const Ray& ray) {
+    constexpr std::size_t kMost = 24;
     std::vector<PolynomialOnRay> found;
-    Finder(loaded, found).look(loaded.scene.aggregate->primitives(), ray);
+    visit_shapes_on_ray(loaded.scene.aggregate->primitives(), ray, PolynomialFinder(loaded, found));
     const auto place = [](const PolynomialOnRay& p) {
         return p.roots.empty() ? kInfinity : p.roots.front();
     };
     std::stable_sort(found.begin(), found.end(),
                      [&](const auto& a, const auto& b) { return place(a) < place(b); });
-    if (found.size() > most) found.resize(most);
+    if (found.size() > kMost) found.resize(kMost);
     return found;
 }
 

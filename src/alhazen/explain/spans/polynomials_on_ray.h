@@ -29,9 +29,8 @@ struct PolynomialOnRay {
     std::vector<double> roots;      ///< ascending; all in the range
 };
 
-/// The polynomials of at most `most` primitives whose bounds the ray meets, nearest first.
+/// The polynomials of at most 24 primitives whose bounds the ray meets, nearest first.
 [[nodiscard]] std::vector<PolynomialOnRay> polynomials_on_ray(const LoadedScene& loaded,
-                                                              const Ray& ray,
-                                                              std::size_t most = 24);
+                                                              const Ray& ray);
 
 }  // namespace alhazen

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/laboratory/claims/claim_run.h"
-#include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
 namespace {

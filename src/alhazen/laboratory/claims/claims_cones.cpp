@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/geometry/cones/coverage_tables.h"
 #include "alhazen/geometry/cones/disc_area.h"
 #include "alhazen/laboratory/claims/claim_run.h"
@@ -13,7 +13,6 @@
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "alhazen/sampling/random.h"
-#include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
 namespace {
@@ -97,10 +96,9 @@ template <class F>
 double nanoseconds(const std::vector<Vec2>& places, double& sum, F&& f) {
     double least = kInfinity;
     for (int pass = 0; pass < 7; ++pass) {
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch time;
         for (const Vec2& p : places) sum += f(p.x, p.y);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        least = std::min(least, 1e9 * took.count() / static_cast<double>(places.size()));
+        least = std::min(least, 1e9 * time.seconds() / static_cast<double>(places.size()));
     }
     return least;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 #include "alhazen/renderers/antialias/answer_pool.h"
 #include "alhazen/renderers/antialias/object_search.h"
@@ -22,10 +22,6 @@
 namespace alhazen {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 void keep_distinct(std::vector<std::uint32_t>& numbers) {
     std::sort(numbers.begin(), numbers.end());
@@ -79,17 +75,17 @@ class AdaptiveRender {
     }
 
     void collect_objects() {
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch time;
         objects_.emplace(*job_.scene.aggregate);
         met_.assign(objects_->objects().size(), 0);
         report_.guarantee = true;
-        report_.seconds += seconds_since(begin);
+        report_.seconds += time.seconds();
     }
 
     /// Finds objects between the corner rays, which the grid must then show.
     void look_for_objects() {
         if (job_.stop_requested()) return;
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch time;
         spheres_.emplace(objects_->objects(), met_, picture_, settings_.behind_all);
         if (spheres_->empty()) {
             spheres_.reset();
@@ -105,7 +101,7 @@ class AdaptiveRender {
                           [&](const WatchedObject& w) { return !search_->has_met(w.object); });
             grid_.look_for(around);
         }
-        report_.seconds += seconds_since(begin);
+        report_.seconds += time.seconds();
     }
 
     void report_objects() {

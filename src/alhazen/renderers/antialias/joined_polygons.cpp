@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "alhazen/base/disjoint_sets.h"
 #include "alhazen/primitives/primitive_columns.h"
-#include "alhazen/renderers/antialias/disjoint_sets.h"
 #include "alhazen/renderers/antialias/mesh_pieces.h"
 
 namespace alhazen {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "alhazen/renderers/antialias/disjoint_sets.h"
+#include "alhazen/base/disjoint_sets.h"
 
 namespace alhazen {
 
@@ -36,17 +36,6 @@ std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& positions)
         first[i] = table[slot];
     }
     return first;
-}
-
-double stretch_bound(const Mat3& m) {
-    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
-    double most = 0;
-    for (const Vec3& a : columns) {
-        double sum = 0;
-        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
-        most = std::max(most, sum);
-    }
-    return (1.0 + 1e-15) * std::sqrt(most);
 }
 
 MeshPieces::MeshPieces(const TriangleMesh& mesh) : of_vertex(mesh.positions.size(), kNoPiece) {

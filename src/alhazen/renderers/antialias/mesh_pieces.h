@@ -14,9 +14,6 @@
 
 namespace alhazen {
 
-/// Upper bound of the stretch of a map; see most_stretch in primitive_bounds.cpp.
-[[nodiscard]] double stretch_bound(const Mat3& m);
-
 /// [vertex] the first vertex of the same position.
 [[nodiscard]] std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& positions);
 

@@ -1,9 +1,9 @@
 #include "alhazen/renderers/beam_tracing/beam_tracing.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/stopwatch.h"
 #include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/beam_tracing/beam_filtering.h"
 #include "alhazen/renderers/beam_tracing/beam_pixels.h"
@@ -136,10 +136,6 @@ class BeamTileRenderer final : public TileRenderer {
     std::vector<double> errors_;  ///< errors of refraction
 };
 
-double elapsed_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 std::shared_ptr<BeamReport> report_of(const BeamScene& scene, const BeamTree& tree,
                                       const PolygonSet& window) {
     auto report = std::make_shared<BeamReport>();
@@ -186,9 +182,9 @@ void check_job(const RenderJob& job) {
 
 RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     check_job(job);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch time;
     const BeamScene scene = beam_scene(*job.description, job.scene);
-    const double gathered = elapsed_since(start);
+    const double gathered = time.seconds();
     const bool filtered = job.antialias != nullptr && job.antialias->filter != nullptr;
     // The film extends beyond the frame by the radius of the pixel filter.
     const WiderFrame wider(job, film, filtered);
@@ -197,7 +193,7 @@ RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     BeamTree tree;
     ThreadLimit limit(job.control.threads);
     limit.run([&] { tree = beam_tree(wider.job(), scene, window, options_); });
-    const double beams = elapsed_since(start) - gathered;
+    const double beams = time.seconds() - gathered;
     const BeamBands bands(tree, pixels, wider.crop());
     RenderReport report = render_tiles(job, film, [&]() -> std::unique_ptr<TileRenderer> {
         if (filtered) return beam_filter_renderer(wider, scene, tree, pixels, bands);

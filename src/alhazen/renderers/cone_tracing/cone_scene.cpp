@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "alhazen/base/disjoint_sets.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/renderers/cone_tracing/cone_containment.h"
@@ -55,9 +55,7 @@ bool is_in_loop(const Vec3& p, std::span<const Vec3> loop, const Vec3& normal) {
 /// Joins the surfaces of faces and meshes that share an edge.
 class SharedEdges {
   public:
-    explicit SharedEdges(std::size_t sources) : parent_(sources) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
+    explicit SharedEdges(std::size_t sources) : surfaces_(sources), count_(sources) {}
     void add(Vec3 a, Vec3 b, std::uint32_t source) {
         const auto key = [](const Vec3& p) { return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0}; };
         std::array<std::array<double, 3>, 2> edge{key(a), key(b)};
@@ -68,21 +66,17 @@ class SharedEdges {
         std::sort(edges_.begin(), edges_.end());
         for (std::size_t k = 1; k < edges_.size(); ++k) {
             if (edges_[k].first != edges_[k - 1].first) continue;
-            const std::uint32_t a = root(edges_[k].second), b = root(edges_[k - 1].second);
-            parent_[std::max(a, b)] = std::min(a, b);
+            surfaces_.unite(edges_[k].second, edges_[k - 1].second);
         }
-        std::vector<std::uint32_t> result(parent_.size());
-        for (std::uint32_t k = 0; k < result.size(); ++k) result[k] = root(k);
+        std::vector<std::uint32_t> result(count_);
+        for (std::uint32_t k = 0; k < result.size(); ++k) result[k] = surfaces_.find(k);
         return result;
     }
 
   private:
-    std::uint32_t root(std::uint32_t k) {
-        while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-        return k;
-    }
     std::vector<std::pair<std::array<std::array<double, 3>, 2>, std::uint32_t>> edges_;
-    std::vector<std::uint32_t> parent_;
+    DisjointSets surfaces_;
+    std::size_t count_;
 };
 
 class ConeGatherer {

@@ -6,6 +6,7 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/core/tinted_media.h"
+#include "alhazen/shading/lights/light_extent.h"
 
 namespace alhazen {
 
@@ -31,13 +32,6 @@ double share_of_directions(const SpecularPart& part, const Vec3& from) {
     const double sine2 = part.around.radius * part.around.radius / squared;
     if (!(sine2 < 1.0)) return 0.5;
     return 0.5 * sine2 / (1.0 + std::sqrt(1.0 - sine2));
-}
-
-Vec3 in_narrow_cone(const Vec3& axis, double versine, const Vec2& u) {
-    const double z = 1.0 - u.x * versine;
-    const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
-    const Vec3 a = perpendicular(axis), b = cross(axis, a);
-    return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
 }
 
 }  // namespace
@@ -216,10 +210,10 @@ Vec3 ManifoldLight::random_seed(ChainKind kind) {
     const double which = next_number();
     const Vec2 u{next_number(), next_number()};
     if (refracts(kind) && which < kNearStraight)
-        return in_narrow_cone(straight(), kStraightVersine, u);
+        return direction_in_cone(straight(), kStraightVersine, u);
     const double share = share_of_directions(part, from);
-    if (share >= 0.5) return in_narrow_cone({0, 0, 1}, 2.0, u);
-    return in_narrow_cone(normalize(part.around.center - from), 2.0 * share, u);
+    if (share >= 0.5) return direction_in_cone({0, 0, 1}, 2.0, u);
+    return direction_in_cone(normalize(part.around.center - from), 2.0 * share, u);
 }
 
 void ManifoldLight::find_kind(ChainKind kind) {

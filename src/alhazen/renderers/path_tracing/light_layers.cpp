@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/shading/spectrum/color_matching.h"
+
 namespace alhazen {
 
 namespace {
@@ -29,10 +31,6 @@ Spectrum part_of(AovKind kind, const LightParts& parts) {
         default:
             return parts.direct.transmitted + parts.indirect.transmitted;
     }
-}
-
-double luminance(const Rgb& c) {
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
 }
 
 /// The variance of the mean.
@@ -94,9 +92,10 @@ void LightLayers::add(const SampleId& id, const LightParts& parts, const Wavelen
     }
     if (!stokes_) return;
     const StokesLight& s = parts.polarized;
-    add(*intensity_, pixel, {luminance(radiance), 0, 0}, id.sign);
+    add(*intensity_, pixel, {luminance_of(radiance), 0, 0}, id.sign);
     add(*stokes_, pixel,
-        {luminance(waves.color(s.q)), luminance(waves.color(s.u)), luminance(waves.color(s.v))},
+        {luminance_of(waves.color(s.q)), luminance_of(waves.color(s.u)),
+         luminance_of(waves.color(s.v))},
         id.sign);
 }
 

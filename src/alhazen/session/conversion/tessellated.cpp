@@ -18,7 +18,7 @@ namespace {
 
 /// Largest factor by which a transform stretches a vector: the square root of the largest
 /// eigenvalue of its matrix times its transpose, by Jacobi's rotations.
-double largest_stretch(const Affine& placement) {
+double exact_stretch(const Affine& placement) {
     const Vec3 columns[3] = {placement.vector({1, 0, 0}), placement.vector({0, 1, 0}),
                              placement.vector({0, 0, 1})};
     double m[3][3];
@@ -63,8 +63,8 @@ class ObjectStretches {
                 const auto* child = std::get_if<ObjectIndex>(&part.what);
                 if (child == nullptr) continue;
                 const auto c = static_cast<std::size_t>(*child);
-                stretches_[c] = std::max(
-                    stretches_[c], stretches_[object] * largest_stretch(part.object_from_part));
+                stretches_[c] = std::max(stretches_[c],
+                                         stretches_[object] * exact_stretch(part.object_from_part));
                 if (--waiting_[c] == 0) ready.push_back(c);
             }
         }
@@ -290,7 +290,7 @@ class Tessellation {
             },
             prepared);
         auto mesh = std::make_shared<TriangleMesh>();
-        const double tolerance = tolerance_ / (stretch * largest_stretch(part.object_from_part));
+        const double tolerance = tolerance_ / (stretch * exact_stretch(part.object_from_part));
         std::string failed =
             append_triangles(prepared, tolerance, max_triangles_ - report_.triangles, *mesh);
         if (failed == kNeedsLines) {

@@ -10,6 +10,7 @@
 #include "alhazen/session/scene_info/mesh_figures.h"
 #include "alhazen/session/scene_info/patch_figures.h"
 #include "alhazen/session/unique_bytes.h"
+#include "alhazen/solids/vector_json.h"
 #include "alhazen/verification/exact_bounds.h"
 
 namespace alhazen {
@@ -20,10 +21,6 @@ using json = nlohmann::ordered_json;
 
 /// Larger meshes are tested for closedness only on request.
 constexpr std::size_t kMaxClosedTriangles = 2'000'000;
-
-json vector_json(const Vec3& v) {
-    return json::array({v.x, v.y, v.z});
-}
 
 /// JSON has no infinities: empty and unbounded boxes have no bounds.
 json box_json(const Box3& box) {

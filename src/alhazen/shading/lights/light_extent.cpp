@@ -42,6 +42,13 @@ Vec2 on_unit_disc(const Vec2& u) {
     return {r * std::cos(angle), r * std::sin(angle)};
 }
 
+Vec3 direction_in_cone(const Vec3& axis, double versine, const Vec2& u) {
+    const double z = 1.0 - u.x * versine;
+    const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
+    const Vec3 a = perpendicular(axis), b = cross(axis, a);
+    return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
+}
+
 LightSurface::LightSurface(const LightExtent& extent, bool two_sided)
     : extent_(extent), two_sided_(two_sided) {
     std::visit(Overloaded{[&](const RectangleExtent& r) {

@@ -108,5 +108,8 @@ class LightSurface {
 
 /// Area-preserving map from the unit square to the unit disc.
 [[nodiscard]] Vec2 on_unit_disc(const Vec2& u);
+/// A direction in a cone around `axis`, uniform by solid angle. `versine`: 1 less the cosine of the
+/// half angle.
+[[nodiscard]] Vec3 direction_in_cone(const Vec3& axis, double versine, const Vec2& u);
 
 }  // namespace alhazen

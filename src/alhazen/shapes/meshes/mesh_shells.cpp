@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/base/disjoint_sets.h"
 #include "alhazen/base/interruptible_sort.h"
 #include "alhazen/geometry/polygon/merged_positions.h"
 #include "alhazen/math/orientation.h"
@@ -46,12 +47,7 @@ Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
     std::vector<Edge> edges(ends.back());
     each_edge([&](std::uint32_t lower, const Edge& edge) { edges[ends[lower]++] = edge; });
 
-    std::vector<std::uint32_t> parent(mesh.triangles.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets joined(mesh.triangles.size());
     std::size_t first = 0;
     for (const std::size_t end : ends) {
         const auto at = [&](std::size_t i) {
@@ -61,14 +57,14 @@ Shells shells_of(const TriangleMesh& mesh, std::vector<std::uint32_t> merged) {
                   [](const Edge& a, const Edge& b) { return a.higher < b.higher; });
         for (std::size_t i = first + 1; i < end; ++i) {
             if (edges[i].higher != edges[i - 1].higher) continue;
-            parent[root(edges[i].triangle)] = root(edges[i - 1].triangle);
+            joined.unite(edges[i].triangle, edges[i - 1].triangle);
         }
         first = end;
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    Shells shells{{std::vector<std::uint32_t>(parent.size(), kNone)}, std::move(merged)};
-    for (std::uint32_t i = 0; i < parent.size(); ++i) {
-        std::uint32_t& number = shells.of_triangle[root(i)];
+    Shells shells{{std::vector<std::uint32_t>(mesh.triangles.size(), kNone)}, std::move(merged)};
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        std::uint32_t& number = shells.of_triangle[joined.find(i)];
         if (number == kNone) number = shells.count++;
         shells.of_triangle[i] = number;
     }

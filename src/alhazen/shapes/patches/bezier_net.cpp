@@ -82,15 +82,14 @@ BezierNet each_in_u(const BezierNet& net, int degree_after, const Change& change
     return result;
 }
 
-/// Value and first two derivatives of a Bezier curve.
+/// Value and derivative of a Bezier curve.
 struct CurvePoint {
-    HomogeneousPoint value, first, second;
+    HomogeneousPoint value, first;
 };
 CurvePoint curve_at(Row work, int degree, double t) {
     CurvePoint at;
-    at.first = at.second = {0, 0, 0, 0};
+    at.first = {0, 0, 0, 0};
     for (int level = degree; level > 0; --level) {
-        if (level == 2) at.second = (degree * (degree - 1.0)) * (work[2] - 2.0 * work[1] + work[0]);
         if (level == 1) at.first = static_cast<double>(degree) * (work[1] - work[0]);
         for (int i = 0; i < level; ++i) {
             const auto k = static_cast<std::size_t>(i);
@@ -173,7 +172,7 @@ bool is_rational(BezierView net) {
 }
 
 PatchPoint derivatives_at(BezierView net, double u, double v) {
-    Row values, firsts, seconds;  // of the curves in v, along u
+    Row values, firsts;  // of the curves in v, along u
     for (int i = 0; i <= net.degree_u; ++i) {
         Row row;
         for (int j = 0; j <= net.degree_v; ++j) row[static_cast<std::size_t>(j)] = net.at(i, j);
@@ -181,21 +180,15 @@ PatchPoint derivatives_at(BezierView net, double u, double v) {
         const auto k = static_cast<std::size_t>(i);
         values[k] = at.value;
         firsts[k] = at.first;
-        seconds[k] = at.second;
     }
     const CurvePoint s = curve_at(values, net.degree_u, u);
-    const CurvePoint s_v = curve_at(firsts, net.degree_u, u);
-    const HomogeneousPoint s_vv = curve_at(seconds, net.degree_u, u).value;
+    const HomogeneousPoint s_v = curve_at(firsts, net.degree_u, u).value;
     // Quotient rule (Piegl and Tiller, The NURBS Book, equation 4.20).
     const double w = s.value.w;
     PatchPoint p;
     p.point = numerator(s.value) / w;
     p.du = (numerator(s.first) - s.first.w * p.point) / w;
-    p.dv = (numerator(s_v.value) - s_v.value.w * p.point) / w;
-    p.duu = (numerator(s.second) - 2.0 * s.first.w * p.du - s.second.w * p.point) / w;
-    p.duv =
-        (numerator(s_v.first) - s.first.w * p.dv - s_v.value.w * p.du - s_v.first.w * p.point) / w;
-    p.dvv = (numerator(s_vv) - 2.0 * s_v.value.w * p.dv - s_vv.w * p.point) / w;
+    p.dv = (numerator(s_v) - s_v.w * p.point) / w;
     return p;
 }
 

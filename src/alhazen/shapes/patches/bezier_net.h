@@ -83,11 +83,10 @@ struct BezierView {
 /// True if a weight differs from the first one.
 [[nodiscard]] bool is_rational(BezierView net);
 
-/// A point of the patch with its derivatives by u and v of first and second order.
+/// A point of the patch with its derivatives by u and v.
 struct PatchPoint {
     Vec3 point;
     Vec3 du, dv;
-    Vec3 duu, duv, dvv;
 };
 [[nodiscard]] Vec3 point_at(BezierView net, double u, double v);
 [[nodiscard]] PatchPoint derivatives_at(BezierView net, double u, double v);

@@ -4,9 +4,8 @@
 ///
 /// Source: Farin, "Curves and Surfaces for CAGD", 5th ed., Morgan Kaufmann, 2002, sections 4.1
 /// (Bernstein polynomials) and 13.5 (derivatives of rational curves).
-/// Differs: `derivatives_at` (bezier_net.h) also finds the second derivatives, by de Casteljau's
-/// algorithm, at five times the cost; the results agree to rounding.
-/// Conventions: u and v may lie slightly outside [0, 1].
+/// Differs: `derivatives_at` (bezier_net.h) finds the same by de Casteljau's algorithm, more
+/// slowly; the results agree to rounding. Conventions: u and v may lie slightly outside [0, 1].
 
 #include "alhazen/shapes/patches/bezier_net.h"
 

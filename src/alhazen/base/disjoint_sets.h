@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace alhazen {
 
 class DisjointSets {
   public:
+    /// `count` sets of one number each, from 0.
+    explicit DisjointSets(std::size_t count) : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+    }
     /// [number] an equal or smaller member of its set.
     explicit DisjointSets(std::vector<std::uint32_t> parents) : parents_(std::move(parents)) {}
 
