@@ -38,7 +38,7 @@ class PixelQuadrature {
     explicit PixelQuadrature(double error) : error_(error) {}
 
     /// `shade(at, width)` is the colour of a point, textures filtered over that width: the
-    /// part's, so that no detail of a texture lies between its points.
+    /// part's, so that no detail of a mipmapped texture lies between its points.
     template <class Shade>
     [[nodiscard]] Rgb mean(const PixelPolygon& polygon, const Shade& shade) const {
         const PixelRule rule = rule_of(polygon);

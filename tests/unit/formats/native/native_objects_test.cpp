@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "alhazen/formats/native/read/native_shapes.h"
+#include "alhazen/math/constants.h"
 #include "native_scene.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -50,6 +52,25 @@ TEST(NativeImporter, ReadsPolygonsWithCornersOffThePlaneAsTriangles) {
         import_native("polygon { vertices = [(-1,-1,0), (1,1,0), (1,-1,0), (-1,1,0.01)] }");
     EXPECT_NE(bow.messages().find("mean plane"), std::string::npos) << bow.messages();
     EXPECT_EQ(shape_of<Polygon>(bow, 0).vertices.size(), 4u);
+    // A corner written twice, or again at the end, is one.
+    const Imported closed = import_native(
+        "polygon { vertices = [(0,0,0), (2,0,0), (2,1,.1), (2,1,.1), (1,1,0), (1,2,0), (0,2,0), "
+        "(0,0,0)] }");
+    EXPECT_NE(closed.messages().find("read as triangles"), std::string::npos) << closed.messages();
+    EXPECT_EQ(closed.scene.meshes.at(0).mesh->triangles.size(), 4u);
+    // Triangles are those of the loop as seen along the normal: here it crosses itself along z.
+    const Imported steep = import_native(
+        "polygon { vertices = [(-.8,-1,.6), (.8,-1,-.6), (-.84,0,.38), (.8,1,-.6), (-.8,1,.6)] }");
+    EXPECT_NEAR(area(*steep.scene.meshes.at(0).mesh), 2.1, 0.05);
+    // A star of more corners than can be tested stays what it is.
+    std::string star = "polygon { vertices = [";
+    for (int i = 0; i < 20003; ++i) {
+        const double turn = 2 * kPi * i * 10000 / 20003;
+        star += (i == 0 ? "(" : ", (") + std::to_string(std::cos(turn)) + "," +
+                std::to_string(std::sin(turn)) + (i == 0 ? ",0.1)" : ",0)");
+    }
+    const Imported refused = import_native(star + "] }");
+    EXPECT_NE(refused.messages().find("mean plane"), std::string::npos) << refused.messages();
     // With a hole it stays what it is, too.
     const Imported loops = import_native(
         "polygon { loops = [[(0,0,0), (4,0,0), (4,4,1), (0,4,0)], [(1,1,0), (2,1,0), (1,2,0)]] }");

@@ -20,7 +20,23 @@ bool is_complete(const Polygon& polygon) {
            std::all_of(polygon.vertices.begin(), polygon.vertices.end(), is_finite);
 }
 
-std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon) {
+/// Drops corners of a single loop that are where the one before is.
+void drop_repeated(Polygon& polygon) {
+    std::vector<Vec3>& v = polygon.vertices;
+    if (polygon.loop_ends.size() > 1) return;
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+    while (v.size() > 1 && v.back() == v.front()) v.pop_back();
+    polygon.loop_ends.clear();
+}
+
+/// The corners, moved to the plane of the polygon along its normal.
+std::vector<Vec3> flat_corners(const Polygon& polygon) {
+    std::vector<Vec3> flat = polygon.vertices;
+    for (Vec3& p : flat) p = p - dot(p - polygon.point, polygon.normal) * polygon.normal;
+    return flat;
+}
+
+std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon, const std::vector<Vec3>& flat) {
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->positions = polygon.vertices;
     const Vec3 v_axis = cross(polygon.normal, polygon.u_axis);
@@ -30,17 +46,17 @@ std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon) {
     }
     std::vector<std::uint32_t> loop(polygon.vertices.size());
     std::iota(loop.begin(), loop.end(), 0u);
-    triangulate(mesh->positions, loop, mesh->triangles);
+    triangulate(flat, loop, mesh->triangles);
     return mesh;
 }
 
-/// True if triangles on the corners do not cover what is inside the loop, seen along the normal.
-bool crosses_itself(const Polygon& polygon) {
-    std::vector<Vec3> flat = polygon.vertices;
-    for (Vec3& p : flat) p = p - dot(p - polygon.point, polygon.normal) * polygon.normal;
-    return repaired_polygon(flat, polygon.loop_ends,
-                            {polygon.normal, dot(polygon.normal, polygon.point)})
-        .crosses;
+/// True if triangles on the corners are certain to cover what is inside the loop, seen along the
+/// normal.
+bool is_simple(const Polygon& polygon, const std::vector<Vec3>& flat) {
+    if (polygon.loop_ends.size() > 1) return false;
+    const RepairedPolygon repaired = repaired_polygon(
+        flat, polygon.loop_ends, {polygon.normal, dot(polygon.normal, polygon.point)});
+    return !repaired.crosses && repaired.refused.empty();
 }
 
 }  // namespace
@@ -50,16 +66,19 @@ void replace_bent_polygon(NativeContext& context, Part& part) {
     const auto* given = shape != nullptr ? std::get_if<Polygon>(shape) : nullptr;
     if (given == nullptr || !is_complete(*given)) return;
     Polygon polygon = *given;
+    drop_repeated(polygon);
+    if (!is_complete(polygon)) return;
     polygon.prepare();
     if (is_flat(polygon.vertices, polygon.normal)) return;
-    const bool is_mesh = polygon.loop_ends.size() == 1 && !crosses_itself(polygon);
+    const std::vector<Vec3> flat = flat_corners(polygon);
+    const bool is_mesh = is_simple(polygon, flat);
     context.diagnostics.warning(
         part.location, "polygon: its corners are not in a plane, but up to " +
                            shortest(polygon.off_plane) + " off: it is " +
                            (is_mesh ? "read as triangles"
                                     : "met in their mean plane, and as a light not sampled"));
     if (!is_mesh) return;
-    auto mesh = triangles_of(polygon);
+    auto mesh = triangles_of(polygon, flat);
     context.count_elements(mesh->positions.size() + mesh->triangles.size(), part.location);
     context.scene.meshes.push_back({part.name, std::move(mesh), part.location, {}});
     part.what = static_cast<MeshIndex>(context.scene.meshes.size() - 1);
