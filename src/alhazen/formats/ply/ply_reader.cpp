@@ -107,9 +107,12 @@ class BodyReader {
     ///
     /// An item of an ascii file is a line, and may be several lines (a number in each, wrapped
     /// lists) or, from the first on, a part of one. It fails where it takes the end of one line and
-    /// only the beginning of another, or begins behind others where the first was a line.
+    /// only the beginning of another, or begins behind others where the first was a line. The last
+    /// one fails also where it begins its line and others follow, if one item is known to be a
+    /// line.
     template <class Read>
     bool read_items(const PlyElement& element, const Read& read) {
+        const int errors = errors_;
         bool is_line = false;  // the first item
         for (std::uint64_t i = 0; i < element.count; ++i) {
             interruption_point();
@@ -123,9 +126,10 @@ class BodyReader {
                     fail(element, i, message, start);
                     return recover();
                 };
+                const char* const more = "the line has more values than the header names";
                 const auto surplus = [&] {
                     if (i > 0) --i;  // these values are of no item
-                    return fail_line("the line has more values than the header names");
+                    return fail_line(more);
                 };
                 if (is_line && !begins) {
                     if (!surplus()) return false;
@@ -137,6 +141,11 @@ class BodyReader {
                 }
                 const bool in_line = values_.line() == start.line(), ends = values_.ends_line();
                 if (i == 0) is_line = begins && in_line && ends;
+                const bool is_last = i + 1 == element.count && (is_line || errors_ > errors);
+                if (is_last && begins && in_line && !ends) {
+                    fail(element, i, more, values_);
+                    return recover();
+                }
                 if (in_line || ends) continue;
                 if (begins ? !fail_line("the line has fewer values than the header names")
                            : !surplus()) {
