@@ -32,12 +32,16 @@ class CommandLine(CommandLineCase):
             result = run("help", *command)
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertEqual(result.stdout, run(*command, "--help").stdout)
+        self.assertEqual(run("help", "help").stdout, run("--help").stdout)
         self.assertRegex(run("help", "paint").stderr, "'paint'.*render, convert")
 
     def test_an_option_given_twice_is_said_to_be(self):
         result = self.render("-t", "1", "-t", "2")
         self.assertEqual(result.returncode, 2)
         self.assertIn("--threads: was given more than once\n", result.stderr)
+        self.assertIn("--shutter: was given more than once\n",
+                      self.render("--shutter", "0,1", "--shutter", "0,2").stderr)
+        self.assertIn("--shutter '0,1,2': expected OPEN,CLOSE, two finite times", self.render("--shutter", "0,1,2").stderr)
 
     def test_the_limit_of_the_terms_of_a_polynomial_is_told(self):
         start = "alhazen 1\nalgebraic { clip_box = ((-1, -1, -1), (1, 1, 1)); expression = "
