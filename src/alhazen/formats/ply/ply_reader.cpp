@@ -1,5 +1,7 @@
 #include "alhazen/formats/ply/ply_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -341,6 +343,25 @@ class BodyReader {
                                  (surplus == 1 ? "is" : "are") + " ignored");
     }
 
+    /// Warns of colours beyond black and white, which only properties of a float type have.
+    void report_unusual_colors() {
+        std::size_t unusual = 0;
+        float least = 0.0f, most = 1.0f;
+        for (const VertexColor& c : mesh_.colors) {
+            const auto [low, high] = std::minmax({c.r, c.g, c.b});
+            unusual += low < 0.0f || high > 1.0f;
+            least = std::min(least, low);
+            most = std::max(most, high);
+        }
+        if (unusual == 0) return;
+        diagnostics_.warning(
+            {file_, 0, 0},
+            fmt::format("{} of {} vertices have colours outside of 0 to 1, from {} to {}: those "
+                        "of a float type are linear factors, 1 is white; path tracing takes 0 for "
+                        "negative ones and scales down what reflects more than all light",
+                        unusual, mesh_.colors.size(), least, most));
+    }
+
     TriangleMesh finish(bool has_vertices) {
         const FileLocation whole{file_, 0, 0};
         if (!has_vertices) {
@@ -361,6 +382,7 @@ class BodyReader {
                                             " faces with fewer than three vertices are ignored");
         }
         report_surplus();
+        if (!header_.exact) report_unusual_colors();
         if (!header_.exact) make_normals_unit(mesh_);
         return std::move(mesh_);
     }
