@@ -70,11 +70,12 @@ void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
 }
 
 /// The arguments, the last one first, without the name of the program. `help COMMAND` stands for
-/// `COMMAND --help`.
+/// `COMMAND --help`, `help help` for `help`.
 std::vector<std::string> arguments_from_last(int argc, char** argv) {
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     if (!arguments.empty() && arguments.front() == "help") {
-        arguments.erase(arguments.begin());
+        const bool of_itself = arguments.size() > 1 && arguments[1] == "help";
+        arguments.erase(arguments.begin(), arguments.begin() + (of_itself ? 2 : 1));
         arguments.emplace_back("--help");
     }
     std::reverse(arguments.begin(), arguments.end());

@@ -12,6 +12,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/csg/csg_evaluator.h"
+#include "alhazen/solids/solid_queries_json.h"
 #include "messages.h"
 
 namespace alhazen::cli {
@@ -206,9 +207,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                         "When the shutter opens and closes, instead of what the file says: seconds "
                         "of its animations, or the unit of its keys. `distributed` shows all of "
                         "this time, the other renderers its beginning")
-            ->type_name("OPEN,CLOSE")
-            ->delimiter(',')
-            ->expected(2);
+            ->type_name("OPEN,CLOSE");
     }
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
@@ -262,18 +261,23 @@ void SceneArguments::read_time(const std::string& text) {
 
 std::optional<Shutter> SceneArguments::shutter_option() const {
     if (shutter.empty()) return std::nullopt;
-    if (shutter.size() != 2 || !std::isfinite(shutter[0]) || !std::isfinite(shutter[1]) ||
-        shutter[1] < shutter[0]) {
+    const char* const expected = "OPEN,CLOSE, two finite times, the second not before the first";
+    std::vector<double> times;
+    try {
+        times = parse_numbers(shutter, {2}, expected);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::Usage, fmt::format("--shutter {}", error.what()));
+    }
+    if (!std::isfinite(times[0]) || !std::isfinite(times[1]) || times[1] < times[0]) {
         throw Error(ErrorKind::Usage,
-                    "--shutter: expected OPEN,CLOSE, two finite times, the second not before the "
-                    "first");
+                    fmt::format("--shutter '{}': expected {}", shutter, expected));
     }
     if (time) {
         throw Error(ErrorKind::Usage,
                     "--shutter says when the picture is taken, --time SECONDS too: expected one of "
                     "them");
     }
-    return Shutter{shutter[0], shutter[1]};
+    return Shutter{times[0], times[1]};
 }
 
 bool SceneArguments::names_accelerator() const {

@@ -59,7 +59,7 @@ struct SceneArguments {
     bool takes_time_limit = false;     ///< --time may also be a limit
     std::optional<double> time_limit;  ///< seconds
     bool takes_shutter = false;        ///< the command has the option --shutter
-    std::vector<double> shutter;       ///< opening and closing time; empty: not given
+    std::string shutter;               ///< opening and closing time; empty: not given
     std::string animation;
     std::vector<std::string> objects;
     std::string view_script;

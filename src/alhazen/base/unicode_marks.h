@@ -1,7 +1,10 @@
 #pragma once
-/// Byte order marks of Unicode texts. All text formats are ASCII or UTF-8.
+/// Byte order marks of Unicode texts. All text formats are ASCII or UTF-8; YAML may be UTF-16, too.
 
+#include <string>
 #include <string_view>
+
+#include "alhazen/base/diagnostics.h"
 
 namespace alhazen {
 
@@ -16,5 +19,15 @@ namespace alhazen {
     return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
 }
 inline constexpr const char* kUtf16Found = "the file is UTF-16 text; expected ASCII or UTF-8";
+/// Throws Error (Scene) for UTF-16 text.
+inline void refuse_utf16(std::string_view text, const std::string& file) {
+    if (is_utf16(text)) throw Error(ErrorKind::Scene, kUtf16Found, {file, 1, 1});
+}
+/// The same as a finding; returns whether there is one.
+[[nodiscard]] inline bool report_utf16(std::string_view text, const std::string& file,
+                                       Diagnostics& diagnostics) {
+    if (is_utf16(text)) diagnostics.error({file, 1, 1}, kUtf16Found);
+    return is_utf16(text);
+}
 
 }  // namespace alhazen

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/patches/patch_welder.h"
 #include "alhazen/formats/text/text_cursor.h"
 
@@ -207,6 +208,7 @@ bool looks_like_bpt(std::string_view bytes) {
 
 std::vector<BptMesh> read_bpt(std::string_view bytes, const std::string& file,
                               const ImportOptions& options, Diagnostics& diagnostics) {
+    if (report_utf16(bytes, file, diagnostics)) return {};
     return BptReader(bytes, file, options, diagnostics).read();
 }
 

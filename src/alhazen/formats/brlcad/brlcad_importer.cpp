@@ -1,6 +1,7 @@
 #include "alhazen/formats/brlcad/brlcad_importer.h"
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/brlcad/brlcad_builder.h"
 #include "alhazen/formats/brlcad/brlcad_lights.h"
 #include "alhazen/formats/brlcad/brlcad_v4_reader.h"
@@ -41,6 +42,7 @@ void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3
     if (!script.empty()) {
         diagnostics.note_file(script);
         const std::string text = read_file(script, kMaxScriptBytes);
+        refuse_utf16(text, script.string());
         scene.cameras = read_brlcad_views(text, script.string(), box, diagnostics);
         if (const auto background = brlcad_view_background(text)) {
             scene.picture.background = background;
@@ -76,6 +78,8 @@ SceneDescription BrlcadImporter::import(const ImportSource& source,
     database.file = source.path.string();
     if (BrlcadV4Reader::recognise(source.bytes)) {
         BrlcadV4Reader(source, database, diagnostics).read();
+    } else if (report_utf16(source.bytes, database.file, diagnostics)) {
+        return scene;
     } else if (source.bytes.find('\0') != std::string_view::npos) {
         diagnostics.error({database.file, 0, 0},
                           "not a text database; convert a binary one with BRL-CAD's g2asc");

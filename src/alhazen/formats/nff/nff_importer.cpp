@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/nff/nff_reader.h"
 
 namespace alhazen {
@@ -58,6 +59,7 @@ SceneDescription NffImporter::import(const ImportSource& source, Diagnostics& di
     scene.format = name();
     scene.path = source.path;
     scene.conventions = nff_conventions();
+    if (report_utf16(source.bytes, source.path.string(), diagnostics)) return scene;
     NffReader(source, scene, diagnostics).read();
     return scene;
 }

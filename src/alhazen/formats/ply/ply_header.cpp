@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/formats/text/text_cursor.h"
 
 namespace alhazen {
@@ -205,6 +206,7 @@ std::size_t PlyElement::min_bytes(PlyFormat format) const {
 
 std::optional<PlyHeader> read_ply_header(std::string_view bytes, const std::string& file,
                                          Diagnostics& diagnostics) {
+    if (report_utf16(bytes, file, diagnostics)) return std::nullopt;
     return HeaderReader(bytes, file, diagnostics).read();
 }
 

@@ -1,5 +1,7 @@
 #include "alhazen/formats/ply/ply_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,9 +109,12 @@ class BodyReader {
     ///
     /// An item of an ascii file is a line, and may be several lines (a number in each, wrapped
     /// lists) or, from the first on, a part of one. It fails where it takes the end of one line and
-    /// only the beginning of another, or begins behind others where the first was a line.
+    /// only the beginning of another, or begins behind others where the first was a line. The last
+    /// one fails also where it begins its line and others follow, if one item is known to be a
+    /// line.
     template <class Read>
     bool read_items(const PlyElement& element, const Read& read) {
+        const int errors = errors_;
         bool is_line = false;  // the first item
         for (std::uint64_t i = 0; i < element.count; ++i) {
             interruption_point();
@@ -123,9 +128,10 @@ class BodyReader {
                     fail(element, i, message, start);
                     return recover();
                 };
+                const char* const more = "the line has more values than the header names";
                 const auto surplus = [&] {
                     if (i > 0) --i;  // these values are of no item
-                    return fail_line("the line has more values than the header names");
+                    return fail_line(more);
                 };
                 if (is_line && !begins) {
                     if (!surplus()) return false;
@@ -137,6 +143,11 @@ class BodyReader {
                 }
                 const bool in_line = values_.line() == start.line(), ends = values_.ends_line();
                 if (i == 0) is_line = begins && in_line && ends;
+                const bool is_last = i + 1 == element.count && (is_line || errors_ > errors);
+                if (is_last && begins && in_line && !ends) {
+                    fail(element, i, more, values_);
+                    return recover();
+                }
                 if (in_line || ends) continue;
                 if (begins ? !fail_line("the line has fewer values than the header names")
                            : !surplus()) {
@@ -332,6 +343,25 @@ class BodyReader {
                                  (surplus == 1 ? "is" : "are") + " ignored");
     }
 
+    /// Warns of colours beyond black and white, which only properties of a float type have.
+    void report_unusual_colors() {
+        std::size_t unusual = 0;
+        float least = 0.0f, most = 1.0f;
+        for (const VertexColor& c : mesh_.colors) {
+            const auto [low, high] = std::minmax({c.r, c.g, c.b});
+            unusual += low < 0.0f || high > 1.0f;
+            least = std::min(least, low);
+            most = std::max(most, high);
+        }
+        if (unusual == 0) return;
+        diagnostics_.warning(
+            {file_, 0, 0},
+            fmt::format("{} of {} vertices have colours outside of 0 to 1, from {} to {}: those "
+                        "of a float type are linear factors, 1 is white; path tracing takes 0 for "
+                        "negative ones and scales down what reflects more than all light",
+                        unusual, mesh_.colors.size(), least, most));
+    }
+
     TriangleMesh finish(bool has_vertices) {
         const FileLocation whole{file_, 0, 0};
         if (!has_vertices) {
@@ -352,6 +382,7 @@ class BodyReader {
                                             " faces with fewer than three vertices are ignored");
         }
         report_surplus();
+        if (!header_.exact) report_unusual_colors();
         if (!header_.exact) make_normals_unit(mesh_);
         return std::move(mesh_);
     }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -202,6 +203,7 @@ bool is_word(std::string_view text, std::string_view capitals) {
 }  // namespace
 
 IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(text) {
+    refuse_utf16(text, name);
     IesReader reader(text_, name);
     if (text.size() > kMostBytes) reader.fail("the file is larger than 16 MiB");
     std::string_view line = reader.line();

@@ -148,6 +148,13 @@ std::uint16_t upper_half(double x) {
     return static_cast<std::uint16_t>((bits >> 16) + 1);
 }
 
+/// True for a part so small that the rounding of its middle exceeds every bound that certifies it
+/// or a part of it: its derivatives are at most the differences of its points times the degree.
+bool is_below_rounding(const BezierNet& net, const PatchFrame& frame, double rounding) {
+    const double size = frame.scale * length(control_box(net).size());
+    return rounding > 0.5 * kUnique * std::max(net.degree_u, net.degree_v) * size;
+}
+
 void measure(Part& part, const PatchFrame& frame) {
     const PatchValue middle = patch_value(part.net, 0.5, 0.5);
     const Vec3 center = frame.scale * (middle.point - frame.center);
@@ -194,7 +201,10 @@ void measure(Part& part, const PatchFrame& frame) {
     const double if_v = std::max(bend[0].halved_v() + bend[2].halved_v() * size_v,
                                  2.0 * (bend[1].halved_v() + bend[2].halved_v() * size_u));
     part.split_u = square > 0.0 ? if_u < if_v : size_u > size_v;
-    if ((part.split_u ? level_u : level_v) >= kMostLeafLevel) part.uncertified = 0.0;
+    if ((part.split_u ? level_u : level_v) >= kMostLeafLevel ||
+        is_below_rounding(part.net, frame, 0x1p-20 * length(center))) {
+        part.uncertified = 0.0;
+    }
 }
 
 std::array<Part, 2> halves_of_part(const Part& part, const PatchFrame& frame) {

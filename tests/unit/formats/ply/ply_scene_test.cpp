@@ -46,8 +46,8 @@ TEST(PlyScene, IntegerColoursAreDecodedAndFloatsAreLinear) {
     EXPECT_EQ(color("uint8", "blue red green", "0 255 0"), (VertexColor{1, 0, 0, 1}));
     EXPECT_EQ(color("uchar", "diffuse_red diffuse_green diffuse_blue", "255 0 0"),
               (VertexColor{1, 0, 0, 1}));
-    EXPECT_EQ(color("float", "red green blue alpha", "0.25 2 0.5 0.75"),
-              (VertexColor{0.25f, 2, 0.5f, 0.75f}));
+    EXPECT_EQ(color("float", "red green blue alpha", "0.25 1 0 0.75"),
+              (VertexColor{0.25f, 1, 0, 0.75f}));
     EXPECT_EQ(color("ushort", "red green blue", "65535 0 0"), (VertexColor{1, 0, 0, 1}));
     EXPECT_EQ(color("uchar", "red green blue", "256 -1 0"), (VertexColor{1, 0, 0, 1})) << "clamped";
     EXPECT_EQ(text_of(found), "");
@@ -55,6 +55,18 @@ TEST(PlyScene, IntegerColoursAreDecodedAndFloatsAreLinear) {
     EXPECT_EQ(text_of(found),
               "a.ply:3:1: warning: 'red' of a vertex is ignored: only all of red, green and blue "
               "have a meaning\n");
+}
+
+TEST(PlyScene, FloatColoursAboveWhiteAreKeptAndToldOf) {
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(
+        square("property float red\nproperty float green\nproperty double blue\n", "-0.5 2 0.25"),
+        "a.ply", found);
+    EXPECT_EQ(mesh.colors[2], (VertexColor{-0.5f, 2, 0.25f, 1}));
+    EXPECT_TRUE(mentions(found,
+                         "a.ply: warning: 4 of 4 vertices have colours outside of 0 to 1, "
+                         "from -0.5 to 2: "))
+        << text_of(found);
 }
 
 TEST(PlyScene, StripsOfTrianglesKeepTheirOrientation) {

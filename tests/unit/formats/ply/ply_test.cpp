@@ -174,6 +174,19 @@ TEST(Ply, AnItemOfAnAsciiFileEndsWithItsLine) {
         "a.ply:12:1: error: vertex 1: " + fewer + "\na.ply:13:7: error: vertex 2: " + more + "\n");
     EXPECT_EQ(findings("0 0 0\n1 0 0 5\n1 1 0\n0 1 0\n", face),
               "a.ply:12:7: error: vertex 1: " + more + "\n");
+    EXPECT_EQ(findings("0 0 0\n1 0 0\n1 1 0\n0 1 0 7\n", face),
+              "a.ply:14:7: error: vertex 3: " + more + "\n");
+    EXPECT_EQ(findings("0 0 0\n1 0 0\n1 1 0\n0 1 0 7\n", "4 0 1 2 5\n"),
+              "a.ply:14:7: error: vertex 3: " + more +
+                  "\na.ply:15:1: error: face 0: a vertex index outside the range of 4 vertices\n");
+    const std::string all = findings("0 0 0 7\n1 0 0 7\n1 1 0 7\n0 1 0 7\n", face);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_NE(all.find(":" + std::to_string(11 + i) + ":7: error: vertex " + std::to_string(i) +
+                           ": " + more),
+                  std::string::npos)
+            << all;
+    }
+    EXPECT_EQ(all.find("face"), std::string::npos) << all;
     EXPECT_EQ(findings("0 0 0\n1 0 0 1 1 0\n0 1 0\n", face).substr(0, 12), "a.ply:12:7: ");
     EXPECT_EQ(findings("0 0 0\n1 0 0\n1 1 0\n0 1\n", face).substr(0, 12), "a.ply:14:1: ");
     // One number in a line, all in one, two items in each, wrapped lists.

@@ -221,6 +221,30 @@ TEST(PatchCrossings, ModelsHaveTheirMeasuresAndFitIntoFourKilobytesAPatch) {
     }
 }
 
+/// The rounding of a leaf's middle grows with the shape: no division of a patch below it helps.
+TEST(PatchCrossings, PatchesTinyBesideTheirShapeAreOneLeafEach) {
+    const BezierNet curved = testing::cusp_patch();
+    std::vector<Vec3> flat;
+    for (int k = 0; k < 16; ++k) flat.push_back({k / 4 / 3.0, k % 4 * 1.0, 0.0});
+    const BezierNet plane = bezier_net(3, 3, flat);
+    for (Vec3& p : flat) p = 1e9 * p + Vec3{1e9, 0, 0};
+    const BezierNet far = bezier_net(3, 3, flat);
+    const auto bytes = [](const std::vector<BezierNet>& nets) {
+        return testing::patch_tree(nets).bytes();
+    };
+    EXPECT_GT(bytes({curved, curved}), bytes({plane, plane}));
+    EXPECT_EQ(bytes({curved, far}), bytes({plane, far}));
+    const PatchTree tree = testing::patch_tree(std::vector{curved, far});
+    Random random(7);
+    for (int i = 0; i < 100; ++i) {
+        const double z = random.uniform(0.1, 0.6);
+        ShapeHit hit;
+        ASSERT_TRUE(tree.first_hit({{-5, random.uniform(0.5, 2.5), z}, {1, 0, 0}}, hit)) << i;
+        // The rounding of a projection in this shape: see `PatchLine::tiny`.
+        EXPECT_NEAR(hit.t, 5.0 + testing::cusp_x(z), 0x1p-45 * 4e9) << i;
+    }
+}
+
 /// Area and flux volume by lines that are spread evenly over a sphere around the model.
 TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
     ALHAZEN_NEEDS_DATA("patches/teapot.bpt");

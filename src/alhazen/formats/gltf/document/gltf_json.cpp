@@ -443,10 +443,7 @@ std::optional<json> parse_json(std::string_view text, const std::string& file, s
         diagnostics.error({file, 1, 1}, "JSON: the text begins with a byte order mark");
         return std::nullopt;
     }
-    if (is_utf16(text)) {
-        diagnostics.error({file, 1, 1}, kUtf16Found);
-        return std::nullopt;
-    }
+    if (report_utf16(text, file, diagnostics)) return std::nullopt;
     try {
         Watch watch(most);
         static_cast<void>(json::sax_parse(text.begin(), text.end(), &watch));

@@ -1,0 +1,94 @@
+/// Every reader of a text format says of UTF-16 text what it is.
+
+#include <gtest/gtest.h>
+
+#include "unit/formats/import_text.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::TemporaryFolder;
+
+/// ASCII as UTF-16 with its mark.
+std::string utf16(std::string_view text, bool big_endian = false) {
+    std::string bytes = big_endian ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char c : text) {
+        bytes += big_endian ? '\0' : c;
+        bytes += big_endian ? c : '\0';
+    }
+    return bytes;
+}
+
+/// The findings of importing a file, or its error.
+std::string findings_of(const std::filesystem::path& path, const ImportOptions& options = {}) {
+    Diagnostics found;
+    try {
+        (void)import_scene(path, options, found);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return testing::text_of(found);
+}
+
+constexpr std::string_view kFound = "the file is UTF-16 text; expected ASCII or UTF-8";
+
+TEST(Utf16, IsToldOfInScenesOfEveryTextFormat) {
+    const TemporaryFolder folder;
+    for (const char* suffix : {"alhazen", "ray", "nff", "aff", "gltf", "obj", "ply", "stl", "asc",
+                               "bpt", "rib", "txt"}) {
+        for (const bool big_endian : {false, true}) {
+            const auto path =
+                folder.write(std::string("a.") + suffix, utf16("ply\nformat ascii", big_endian));
+            const std::string said = findings_of(path);
+            EXPECT_TRUE(said.starts_with(path.string() + ":1:1: ")) << said;
+            EXPECT_TRUE(said.ends_with(kFound)) << said;
+        }
+    }
+}
+
+TEST(Utf16, IsToldOfInFilesThatScenesName) {
+    const TemporaryFolder folder;
+    const std::string text = utf16("newmtl a\n");
+    for (const char* name : {"a.mtl", "a.bpt", "a.xyz", "a.ies", "view.txt"}) {
+        (void)folder.write(name, text);
+    }
+    const auto scene = [&](const char* name, const std::string& bytes) {
+        return findings_of(folder.write(name, bytes));
+    };
+    const std::string obj = scene("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_NE(obj.find("warning: the material file cannot be read: "), std::string::npos) << obj;
+    EXPECT_NE(obj.find("a.mtl:1:1: " + std::string(kFound)), std::string::npos) << obj;
+    for (const char* item : {"patch_mesh { file = \"a.bpt\"; }", "mesh { file = \"a.xyz\"; }",
+                             "point_light { position = (0, 0, 2); profile = \"a.ies\"; }"}) {
+        const std::string said = scene("a.alhazen", std::string("alhazen 1\nsphere {}\n") + item);
+        EXPECT_NE(said.find(kFound), std::string::npos) << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+    const auto database =
+        folder.write("b.asc",
+                     "title {a}\nunits mm\nput b.s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+                     "put b.r comb region yes tree {l b.s}\n");
+    EXPECT_EQ(findings_of(database), "");
+    const auto script = folder.path() / "view.txt";
+    EXPECT_EQ(findings_of(database, {.view_script = script}),
+              script.string() + ":1:1: " + std::string(kFound));
+}
+
+/// A requirement of YAML 1.1 (5.2).
+TEST(Utf16, IsReadInYaml) {
+    const TemporaryFolder folder;
+    const std::string text =
+        "Materials:\n    A: {Shader: Blinn-Phong Shader}\nRoot:\n    Name: Root\n    Components: "
+        "{Transform: {}}\n    Children:\n    -   Name: Ball\n        Components:\n"
+        "            Sphere: {Material: A}\n            Transform: {}\n";
+    const std::string plain = findings_of(folder.write("a.yaml", text));
+    for (const bool big_endian : {false, true}) {
+        EXPECT_EQ(findings_of(folder.write("a.yaml", utf16(text, big_endian))), plain);
+    }
+    Diagnostics found;
+    EXPECT_EQ(import_scene(folder.path() / "a.yaml", {}, found).objects.front().parts.size(),
+              import_scene(folder.write("b.yaml", text), {}, found).objects.front().parts.size());
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
