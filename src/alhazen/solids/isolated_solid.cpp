@@ -66,6 +66,15 @@ Ray whole_line(const Affine& inner_from_outer, const Ray& ray) {
     return line;
 }
 
+Box3 common_box(const Box3& a, const Box3& b) {
+    Box3 both;
+    for (int k = 0; k < 3; ++k) {
+        both.lo[k] = std::max(a.lo[k], b.lo[k]);
+        both.hi[k] = std::min(a.hi[k], b.hi[k]);
+    }
+    return both;
+}
+
 double largest_coordinate(const Box3& box) {
     return std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
 }
@@ -195,6 +204,21 @@ void IsolatedSolid::part_extents(const Vec3& axis, std::vector<Interval>& parts)
     }
 }
 
+std::vector<Box3> IsolatedSolid::surface_boxes() const {
+    const PrimitiveTable& table = aggregate_->primitives();
+    const auto* csg = dynamic_cast<const CsgAggregate*>(csg_);
+    if (table.size() > kMostParts || csg == nullptr) return {box_};
+    const CsgSolid& solid = csg->solid();
+    std::vector<Box3> boxes;
+    for (std::uint32_t leaf = 0; leaf < solid.leaf_count(); ++leaf) {
+        const Box3 inner = common_box(solid.leaf_box(leaf), solid.tree().bounds()[leaf]);
+        if (inner.empty()) continue;
+        const Box3 box = common_box(transformed(world_.outer_from_inner, inner), box_);
+        if (!box.empty()) boxes.push_back(box);
+    }
+    return boxes;
+}
+
 namespace {
 
 /// Removes surfaces between media inside a solid (an exit and an entry at the same place), which
@@ -264,15 +288,6 @@ IsolatedSolid::Coordinates IsolatedSolid::coordinates(const Vec3& near, const Hi
 }
 
 namespace {
-
-Box3 common_box(const Box3& a, const Box3& b) {
-    Box3 both;
-    for (int k = 0; k < 3; ++k) {
-        both.lo[k] = std::max(a.lo[k], b.lo[k]);
-        both.hi[k] = std::min(a.hi[k], b.hi[k]);
-    }
-    return both;
-}
 
 /// The boxes of the parts of a solid, in the order of `part_extents`.
 std::vector<Box3> part_boxes(const IsolatedSolid& solid) {

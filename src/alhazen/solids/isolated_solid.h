@@ -57,6 +57,9 @@ class IsolatedSolid final : public Measurable {
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
     /// The primitives; for a CSG object its positive leaves, within their S-bounds (csg_tree.h).
     void part_extents(const Vec3& axis, std::vector<Interval>& parts) const override;
+    /// Boxes that together contain the surface: of the primitives; for a CSG object of all its
+    /// leaves, also subtracted ones, within their S-bounds. Of many, only the box of the whole.
+    [[nodiscard]] std::vector<Box3> surface_boxes() const;
     /// Includes the frame of the solid, for a CSG object its parts, and the reach of patches.
     [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;

@@ -1,24 +1,23 @@
 #pragma once
 /// Tessellates a solid within a tolerance by its crossings with lines.
 ///
-/// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002: one
-/// vertex per lattice cell that the surface passes through, nearest to the tangent planes at its
-/// crossings with the cell's edges; one quadrangle around each edge that the surface crosses.
-/// Differs: no function is sampled. The spans of lines along z tell which lattice points are
-/// inside; crossings and normals are exact. All cells have one size, which is halved until half the
-/// tolerance holds; triangles are then merged within the other half (collapsed_edges.h).
+/// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002.
+/// Differs: surface_cells.h. Cells are halved where half the tolerance does not hold; triangles are
+/// then merged within the other half (collapsed_edges.h).
 /// Conventions: the frame of the solid's scene; counterclockwise from outside; closed, with the
 /// normals of the exact surface. All points of a face are within a cell's diagonal of the surface,
-/// so cells whose diagonal is half the tolerance need no test. Larger cells, where a vertex may be
-/// half a cell beside its own to be on an edge of the surface, are accepted if lines through the
-/// corners, the edges and the middle of each triangle meet the surface within half the tolerance,
-/// and no part or gap thicker than the tolerance lies between lattice points. Parts thinner than
-/// the tolerance may be missing. Texture coordinates are those of the shape whose surface is at the
-/// triangle, also of the operands of a CSG object: vertices at which they change by a jump (between
-/// shapes, faces and at seams) are several. A triangle across a seam goes on beyond 1; around a
-/// pole they are wrong in single triangles.
-/// Complexity: O((size / cell)^3) lattice points, O((size / cell)^2) lines and triangles before
-/// they are merged.
+/// so cells whose diagonal is half the tolerance need no test. Faces of larger cells, where a
+/// vertex may be half a cell beside its own to be on an edge of the surface, are accepted if lines
+/// through 15 points of each triangle meet the surface within half the tolerance, and no part or
+/// gap thicker than the tolerance lies within an edge of a cell. The largest cells are 1/24 of the
+/// size of the solid, or half the least side of the box of a part, where these are not too many;
+/// the middles of parts and gaps of lines a quarter of the largest cells apart are not missed.
+/// Parts thinner than the tolerance may be missing. Texture coordinates are those of the shape
+/// whose surface is at the triangle, also of the operands of a CSG object: vertices at which they
+/// change by a jump (between shapes, faces and at seams) are several. A triangle across a seam goes
+/// on beyond 1; around a pole they are wrong in single triangles.
+/// Complexity: O(triangles before they are merged); of flat faces they do not depend on the
+/// tolerance, along curved edges and in curved faces they do.
 
 #include <cstdint>
 

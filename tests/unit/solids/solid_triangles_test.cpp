@@ -207,6 +207,70 @@ TEST(SolidTriangles, OfFlatFacesAreFew) {
     EXPECT_LE(largest_distance(solid, mesh, 0.01), 0.01);
 }
 
+TEST(SolidTriangles, OfFlatFacesAreFewBeforeTheyAreMerged) {
+    SceneMaker maker;
+    const ObjectIndex box = maker.object("turned box");
+    maker.description().objects.back().combine = Combine::Union;
+    const Affine turn = Affine::rotate({1, 2, 3}, 0.7);
+    maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, turn, box);
+    (void)maker.material({});
+    maker.add(box);
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    // The limit counts the triangles of the cells: on a lattice of one cell size, more than 10^6 at
+    // each of these tolerances.
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+        TriangleMesh mesh;
+        ASSERT_TRUE(make_solid_triangles(solid, tolerance, 100'000, mesh)) << tolerance;
+        EXPECT_TRUE(mesh_edges(mesh).oriented());
+        EXPECT_LE(largest_distance(solid, mesh, tolerance), tolerance);
+        EXPECT_NEAR(volume_of(mesh), 8, 24 * tolerance);
+    }
+}
+
+/// Least distance of a vertex from a point.
+double nearest_vertex(const TriangleMesh& mesh, const Vec3& point) {
+    double least = kInfinity;
+    for (const Vec3& p : mesh.positions) least = std::min(least, length(p - point));
+    return least;
+}
+
+TEST(SolidTriangles, SmallPartsAreFoundBesideLargeOnes) {
+    Random random(5);
+    for (int round = 0; round < 12; ++round) {
+        SceneMaker maker;
+        const ObjectIndex both = maker.object("plate and ball");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 0}}, MaterialId{0}, {}, both);
+        const Vec3 at{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 0.9)};
+        maker.add(Sphere{.center = at, .radius = 0.01}, MaterialId{0}, {}, both);
+        (void)maker.material({});
+        maker.add(both);
+        EXPECT_LT(nearest_vertex(mesh_of(maker, 0.005), at), 0.02) << round;
+    }
+}
+
+TEST(SolidTriangles, SmallPartsWithoutAPrimitiveOfTheirSizeAreFound) {
+    Random random(6);
+    const double c = std::sqrt(1.0 / 3);
+    for (int round = 0; round < 6; ++round) {
+        SceneMaker maker;
+        const ObjectIndex both = maker.object("ball and lens");
+        const ObjectIndex lens = maker.object("lens");
+        maker.description().objects[1].combine = Combine::Union;
+        maker.description().objects[2].combine = Combine::Intersection;
+        maker.add(Sphere{}, MaterialId{0}, {}, both);
+        const Vec3 at{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(2, 2.5)};
+        for (const double side : {-0.998, 0.998}) {
+            maker.add(Sphere{.center = at + side * Vec3{c, c, c}}, MaterialId{0}, {}, lens);
+        }
+        maker.add(lens, MaterialId{0}, {}, both);
+        (void)maker.material({});
+        maker.add(both);
+        EXPECT_LT(nearest_vertex(mesh_of(maker, 0.003), at), 0.064) << round;
+    }
+}
+
 TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
     Random random(12);
     for (int round = 0; round < 4; ++round) {

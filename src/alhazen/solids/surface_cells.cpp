@@ -1,0 +1,415 @@
+#include "alhazen/solids/surface_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/base/interruption.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Cells along the root if none is divided more than the box asks for.
+constexpr std::uint32_t kRootCells = 32;
+/// The largest number of cells that the box of a part, and those of all, are divided into.
+constexpr double kMostOfPart = 4096, kMostOfParts = 262144;
+/// Cosine of the largest angle of normals in a cell without an edge.
+constexpr double kSmoothCosine = 0.8;
+/// How far from its cell a vertex may be, in cells, where triangles are tested: an edge of the
+/// surface beside a cell is met.
+constexpr double kVertexBeyond = 0.5;
+/// Distance of lines that are not edges of cells, in cells of the largest size.
+constexpr double kLineSpacing = 0.25;
+
+Vec3 axis_vector(std::size_t axis) {
+    Vec3 along;
+    along[static_cast<int>(axis)] = 1.0;
+    return along;
+}
+
+/// The point nearest to the tangent planes at the crossings, weakly drawn to their mean, clamped to
+/// a box.
+Vec3 feature_point(std::span<const SurfaceCells::Crossing> crossings, const Vec3& lo,
+                   const Vec3& hi) {
+    constexpr double kDraw = 0.02;
+    const double share = 1.0 / static_cast<double>(crossings.size());
+    Vec3 point;
+    for (const SurfaceCells::Crossing& c : crossings) point = point + share * c.point;
+    Mat3 sum{{kDraw, 0, 0}, {0, kDraw, 0}, {0, 0, kDraw}};
+    for (const SurfaceCells::Crossing& c : crossings) {
+        sum.x_axis = sum.x_axis + share * c.normal.x * c.normal;
+        sum.y_axis = sum.y_axis + share * c.normal.y * c.normal;
+        sum.z_axis = sum.z_axis + share * c.normal.z * c.normal;
+    }
+    const Mat3 solve = inverse(sum);
+    for (int round = 0; round < 4; ++round) {
+        Vec3 offset;
+        for (const SurfaceCells::Crossing& c : crossings) {
+            offset = offset + share * dot(c.normal, c.point - point) * c.normal;
+        }
+        point = point + solve * offset;
+    }
+    for (int k = 0; k < 3; ++k) point[k] = std::clamp(point[k], lo[k], hi[k]);
+    return point;
+}
+
+}  // namespace
+
+SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings, double tolerance,
+                           SolidCoordinates* coordinates)
+    : line_(solid),
+      unit_(std::ldexp(cell, -halvings)),
+      limit_(0.5 * tolerance),
+      spacing_(std::max(kLineSpacing * cell, tolerance)),
+      box_(solid.box()),
+      // Irrational shifts keep planes of cells off likely planes of the solid; outermost nodes are
+      // outside.
+      origin_(box_.lo - cell * Vec3{0.6180339887, 0.7548776662, 0.5698402910}),
+      tree_(kRootCells << halvings),
+      coordinates_(coordinates) {
+    split_to(0, box_, std::uint32_t{1} << halvings);
+    const std::vector<Box3> parts = solid.surface_boxes();
+    for (const Box3& part : parts) split_part(part, kMostOfParts / double(parts.size()));
+}
+
+bool SurfaceCells::divide(std::uint64_t max_triangles) {
+    do {
+        drop_edges();
+        find_edges();
+        if (2 * edges_.size() > max_triangles) return false;
+        place_vertices();
+        test_faces();
+        if (asked_.empty()) test_lines();
+    } while (split_cells());
+    return true;
+}
+
+// ---- Division.
+void SurfaceCells::split_to(std::uint32_t cell, const Box3& box, std::uint32_t size) {
+    const CellTree::Cell own = tree_[cell];
+    if (own.size <= size) return;
+    const Vec3 lo = position(own.at);
+    for (int k = 0; k < 3; ++k) {
+        if (lo[k] > box.hi[k] || lo[k] + unit_ * own.size < box.lo[k]) return;
+    }
+    if (tree_.is_leaf(cell)) tree_.split(cell);
+    for (std::uint32_t k = 0; k < 8; ++k) split_to(tree_[cell].first_child + k, box, size);
+}
+
+void SurfaceCells::split_part(const Box3& part, double most) {
+    const Vec3 sides = part.size();
+    double cell = std::max(0.5 * std::min({sides.x, sides.y, sides.z}), unit_);
+    const auto count = [&] {
+        double product = 1;
+        for (int k = 0; k < 3; ++k) product *= std::max(1.0, sides[k] / cell);
+        return product;
+    };
+    while (count() > std::min(most, kMostOfPart)) cell *= 1.25;
+    std::uint32_t size = 1;
+    while (2.0 * size * unit_ <= cell && size < tree_[0].size) size *= 2;
+    split_to(0, part, size);
+}
+
+void SurfaceCells::ask(const CellTree::Edge& edge) {
+    std::uint32_t largest = 2;
+    for (const std::uint32_t c : edge.cells) largest = std::max(largest, tree_[c].size);
+    for (const std::uint32_t c : edge.cells) {
+        if (tree_[c].size == largest) ask(c);
+    }
+}
+
+void SurfaceCells::ask(std::uint32_t cell) {
+    if (is_asked_[cell] != 0) return;
+    is_asked_[cell] = 1;
+    asked_.push_back(cell);
+}
+
+bool SurfaceCells::split_cells() {
+    if (asked_.empty()) return false;
+    for (const std::uint32_t c : asked_) tree_.split(c);
+    asked_.clear();
+    return true;
+}
+
+// ---- Lines along the edges of cells.
+std::span<const double> SurfaceCells::ends_of(const Node& through, std::size_t axis) {
+    Node from = through;
+    from[axis] = 0;
+    const std::uint64_t key = std::uint64_t{from[(axis + 1) % 3]} << 32 | from[(axis + 2) % 3];
+    const auto [found, is_new] = lines_[axis].try_emplace(key);
+    if (is_new) {
+        found->second.first = ends_.size();
+        for (const Interval& span : line_.spans(position(from), axis_vector(axis))) {
+            ends_.push_back(span.lo);
+            ends_.push_back(span.hi);
+        }
+        found->second.second = ends_.size();
+    }
+    return std::span(ends_).subspan(found->second.first,
+                                    found->second.second - found->second.first);
+}
+
+bool SurfaceCells::is_in(const Node& n) {
+    const std::span<const double> ends = ends_of(n, 2);
+    const auto passed = std::upper_bound(ends.begin(), ends.end(), unit_ * n[2]);
+    return (passed - ends.begin()) % 2 != 0;
+}
+
+bool SurfaceCells::sees_all(const CellTree::Edge& edge) {
+    const std::span<const double> ends = ends_of(edge.from, edge.axis);
+    const double begin = unit_ * edge.from[edge.axis], end = begin + unit_ * edge.length;
+    auto k =
+        static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
+    if (k + 1 >= ends.size() || !(ends[k + 1] <= end)) return true;
+    Node from = edge.from;
+    from[edge.axis] = 0;
+    for (; k + 1 < ends.size() && ends[k + 1] <= end; ++k) {
+        if (!line_.is_thin(position(from), axis_vector(edge.axis), {ends[k], ends[k + 1]},
+                           limit_)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// ---- Edges.
+void SurfaceCells::drop_edges() {
+    is_changed_.assign(tree_.count(), 0);
+    is_asked_.assign(tree_.count(), 0);
+    vertex_of_.resize(tree_.count(), kNone);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+        const auto& cells = edges_[k].at.cells;
+        if (std::all_of(cells.begin(), cells.end(),
+                        [&](std::uint32_t c) { return tree_.is_leaf(c); })) {
+            if (kept != k) edges_[kept] = edges_[k];
+            ++kept;
+            continue;
+        }
+        for (const std::uint32_t c : cells) is_changed_[c] = 1;
+    }
+    edges_.resize(kept);
+}
+
+void SurfaceCells::find_edges() {
+    tree_.visit_new_edges([&](const CellTree::Edge& at) {
+        interruption_point();
+        const bool may_split = std::any_of(at.cells.begin(), at.cells.end(),
+                                           [&](std::uint32_t c) { return !is_least(c); });
+        if (may_split && !sees_all(at)) ask(at);
+        Node to = at.from;
+        to[at.axis] += at.length;
+        const bool in = is_in(at.from);
+        if (in == is_in(to)) return;
+        edges_.push_back({at, find_crossing(at, in), in});
+        for (const std::uint32_t c : at.cells) is_changed_[c] = 1;
+    });
+    forget_lines();
+}
+
+void SurfaceCells::forget_lines() {
+    for (auto& lines : lines_) lines.clear();
+    ends_.clear();
+}
+
+SurfaceCells::Crossing SurfaceCells::find_crossing(const CellTree::Edge& edge, bool starts_in) {
+    Node to = edge.from;
+    to[edge.axis] += edge.length;
+    Vec3 inner = position(edge.from), outer = position(to);
+    if (!starts_in) std::swap(inner, outer);
+    const Vec3 along = outer - inner;
+    const bool with_uvs = coordinates_ != nullptr;
+    const auto& found = line_.cross(inner, along, 0.0, 1.0, with_uvs);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const IsolatedSolid::SurfacePoint& p = found[k];
+        if (!(dot(p.normal, along) > 0.0)) continue;
+        Crossing met{p.point, p.normal, static_cast<std::uint32_t>(p.material), {}};
+        if (with_uvs) met.place = coordinates_->place(line_.hit(k));
+        return met;
+    }
+    // Down to rounding of the surface.
+    for (int round = 0; round < 40; ++round) {
+        const Vec3 middle = 0.5 * (inner + outer);
+        (line_.inside(middle) ? inner : outer) = middle;
+    }
+    return {inner, normalize(along), 0, {}};
+}
+
+// ---- A vertex for each cell that the surface passes through.
+void SurfaceCells::place_vertices() {
+    struct Use {
+        std::uint32_t cell, edge;
+    };
+    std::vector<Use> uses;
+    for (std::uint32_t k = 0; k < edges_.size(); ++k) {
+        for (const std::uint32_t c : edges_[k].at.cells) {
+            if (is_changed_[c] == 0) continue;
+            edges_[k].is_near = false;
+            uses.push_back({c, k});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.edge < b.edge;
+    });
+    for (std::size_t k = 0; k < uses.size();) {
+        const std::uint32_t cell = uses[k].cell;
+        crossings_.clear();
+        std::uint32_t least = tree_[cell].size;
+        for (; k < uses.size() && uses[k].cell == cell; ++k) {
+            if (k > 0 && uses[k - 1].cell == cell && uses[k - 1].edge == uses[k].edge) continue;
+            const Edge& edge = edges_[uses[k].edge];
+            crossings_.push_back(edge.met);
+            least = std::min(least, edge.at.length);
+        }
+        if (vertex_of_[cell] == kNone) {
+            vertex_of_[cell] = static_cast<std::uint32_t>(vertices_.size());
+            vertices_.emplace_back();
+        }
+        vertices_[vertex_of_[cell]] = make_vertex(tree_[cell], least);
+    }
+}
+
+SurfaceCells::Vertex SurfaceCells::make_vertex(const CellTree::Cell& cell,
+                                               std::uint32_t least) const {
+    const double beyond = cell.size == 1 ? 0.0 : kVertexBeyond * unit_ * least;
+    const double size = unit_ * cell.size + beyond;
+    const Vec3 lo = position(cell.at);
+    Vertex made;
+    made.point =
+        feature_point(crossings_, lo - Vec3{beyond, beyond, beyond}, lo + Vec3{size, size, size});
+    Vec3 sum;
+    for (const Crossing& c : crossings_) sum = sum + c.normal;
+    made.normal = unit_or(sum, crossings_[0].normal);
+    made.material = crossings_[0].material;
+    made.smooth = std::all_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
+        return dot(c.normal, made.normal) > kSmoothCosine;
+    });
+    return made;
+}
+
+// ---- Faces: a polygon of three or four vertices around each edge that the surface crosses.
+SurfaceCells::Face SurfaceCells::face(const Edge& edge) const {
+    Face made;
+    const std::array<std::size_t, 4> ring = edge.leaves ? std::array<std::size_t, 4>{0, 1, 3, 2}
+                                                        : std::array<std::size_t, 4>{0, 2, 3, 1};
+    for (const std::size_t side : ring) {
+        const std::uint32_t c = edge.at.cells[side];
+        if (made.count > 0 && made.cells[made.count - 1] == c) continue;
+        made.cells[made.count++] = c;
+    }
+    if (made.cells[0] == made.cells[made.count - 1]) --made.count;
+    std::size_t s = 0;
+    if (made.count == 4) {
+        s = badness(made, 1, edge.met.normal) < badness(made, 0, edge.met.normal) ? 1 : 0;
+    }
+    made.triangles = {{{s, s + 1, s + 2}, {s, s + 2, (s + 3) % 4}}};
+    return made;
+}
+
+double SurfaceCells::badness(const Face& face, std::size_t first, const Vec3& normal) const {
+    const auto p = [&](std::size_t k) { return point(face.cells[(first + k) % 4]); };
+    const Vec3 one = cross(p(1) - p(0), p(2) - p(0)), two = cross(p(2) - p(0), p(3) - p(0));
+    return -std::min(dot(unit_or(one, normal), normal), dot(unit_or(two, normal), normal));
+}
+
+void SurfaceCells::test_faces() {
+    for (Edge& edge : edges_) {
+        interruption_point();
+        const auto& cells = edge.at.cells;
+        if (edge.is_near || std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) {
+                return is_least(c) || is_asked_[c] != 0;
+            })) {
+            continue;
+        }
+        edge.is_near = is_face_near(face(edge));
+        if (!edge.is_near) ask(edge.at);
+    }
+}
+
+bool SurfaceCells::is_face_near(const Face& face) {
+    for (std::size_t k = 0; k < face.triangle_count(); ++k) {
+        std::array<std::uint32_t, 3> cells{};
+        for (std::size_t i = 0; i < 3; ++i) cells[i] = face.cells[face.triangles[k][i]];
+        if (!is_near(cells)) return false;
+    }
+    return true;
+}
+
+bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& cells) {
+    const Vec3 a = point(cells[0]), b = point(cells[1]), c = point(cells[2]);
+    const Vec3 normal = unit_or(cross(b - a, c - a), vertex(cells[0]).normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vertex& v = vertices_[vertex_of_[cells[k]]];
+        if (!v.is_near && !line_.is_near(v.point, v.normal, limit_)) return false;
+        v.is_near = true;
+        const std::uint32_t from = cells[k], to = cells[(k + 1) % 3];
+        if (from > to) continue;
+        for (const double share : {0.25, 0.5, 0.75}) {
+            if (!line_.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
+                return false;
+            }
+        }
+    }
+    return line_.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
+           line_.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
+           line_.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
+}
+
+// ---- Lines that are not edges of cells.
+void SurfaceCells::test_lines() {
+    if (!has_parts_) find_parts();
+    std::size_t kept = 0;
+    for (const Part& part : parts_) {
+        const Vec3 along = axis_vector(part.axis);
+        const Vec3 middle = part.from + 0.5 * (part.range.lo + part.range.hi) * along;
+        const std::uint32_t cell = leaf_at(middle);
+        if (is_least(cell) || vertex_of_[cell] != kNone ||
+            is_in(tree_[cell].at) == part.is_inside ||
+            line_.is_thin(part.from, along, part.range, limit_)) {
+            continue;
+        }
+        ask(cell);
+        parts_[kept++] = part;
+    }
+    parts_.resize(kept);
+    forget_lines();
+}
+
+void SurfaceCells::find_parts() {
+    has_parts_ = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        interruption_point();
+        const int u = static_cast<int>(axis + 1) % 3, v = static_cast<int>(axis + 2) % 3;
+        for (double x = 0.5 * spacing_; x < box_.size()[u]; x += spacing_) {
+            for (double y = 0.5 * spacing_; y < box_.size()[v]; y += spacing_) {
+                Vec3 from = box_.lo;
+                from[u] += x;
+                from[v] += y;
+                double last = kInfinity;
+                for (const Interval& span : line_.spans(from, axis_vector(axis))) {
+                    if (span.lo > last) {
+                        parts_.push_back({from, axis, {last, span.lo}, false});
+                    }
+                    parts_.push_back({from, axis, span, true});
+                    last = span.hi;
+                }
+            }
+        }
+    }
+}
+
+std::uint32_t SurfaceCells::leaf_at(const Vec3& p) const {
+    std::uint32_t cell = 0;
+    while (!tree_.is_leaf(cell)) {
+        const CellTree::Cell& own = tree_[cell];
+        const Vec3 middle = position(own.at) + 0.5 * unit_ * own.size * Vec3{1, 1, 1};
+        std::uint32_t child = own.first_child;
+        for (int k = 0; k < 3; ++k) child += p[k] >= middle[k] ? 1u << k : 0u;
+        cell = child;
+    }
+    return cell;
+}
+
+}  // namespace alhazen

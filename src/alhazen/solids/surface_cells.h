@@ -1,0 +1,168 @@
+#pragma once
+/// The surface of a solid on an octree: cells are small where the surface needs them.
+///
+/// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002: one
+/// vertex per cell that the surface passes through, nearest to the tangent planes at its crossings
+/// with the cell's edges; one polygon around each edge that the surface crosses.
+/// Differs: no function is sampled. The spans of lines along z tell which corners are inside;
+/// crossings and normals are exact. Cells are divided, not merged: where a face is not near the
+/// surface, or a line meets what the cells do not show. What was tested and has not changed is not
+/// tested again.
+/// Conventions: the frame of the solid's scene. Lengths of the tree are in units of its smallest
+/// cells, whose faces need no test. Threads: used by one thread.
+/// Complexity: O(cells that the surface passes through, or that boxes of parts overlap), in time,
+/// memory and lines.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "alhazen/solids/cell_tree.h"
+#include "alhazen/solids/solid_coordinates.h"
+#include "alhazen/solids/surface_line.h"
+
+namespace alhazen {
+
+class SurfaceCells {
+  public:
+    /// A crossing of the surface with an edge.
+    struct Crossing {
+        Vec3 point, normal;
+        std::uint32_t material = 0;
+        SolidCoordinates::Place place;  ///< where the surface has its texture coordinates
+    };
+    /// An edge of the tree that the surface crosses.
+    struct Edge {
+        CellTree::Edge at;
+        Crossing met;
+        bool leaves = false;  ///< the solid is left along the axis
+        bool is_near = false;
+    };
+    /// The vertex of a cell that the surface passes through.
+    struct Vertex {
+        Vec3 point, normal;
+        std::uint32_t material = 0;
+        bool smooth = true, is_near = false;
+    };
+    /// The polygon of three or four vertices around an edge.
+    struct Face {
+        std::array<std::uint32_t, 4> cells{};  ///< counterclockwise from outside
+        std::size_t count = 0;
+        /// The triangles, as places of `cells`.
+        std::array<std::array<std::size_t, 3>, 2> triangles{};
+
+        [[nodiscard]] std::size_t triangle_count() const { return count - 2; }
+    };
+
+    /// The largest cells that the surface may pass have the size `cell`, the smallest 2^-`halvings`
+    /// of it. `coordinates`: gets the places of crossings, unless null. The solid and they must
+    /// outlive the object.
+    SurfaceCells(const IsolatedSolid& solid, double cell, int halvings, double tolerance,
+                 SolidCoordinates* coordinates);
+
+    /// Divides cells until all faces are within half the tolerance. False if there would be more
+    /// triangles than given; then there is no result.
+    bool divide(std::uint64_t max_triangles);
+
+    [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+    [[nodiscard]] Face face(const Edge& edge) const;
+    /// The number of a cell's vertex, below `vertex_count`. Precondition: the surface passes
+    /// through the cell.
+    [[nodiscard]] std::uint32_t vertex_number(std::uint32_t cell) const { return vertex_of_[cell]; }
+    [[nodiscard]] const Vertex& vertex(std::uint32_t cell) const {
+        return vertices_[vertex_of_[cell]];
+    }
+    [[nodiscard]] std::size_t vertex_count() const { return vertices_.size(); }
+
+  private:
+    using Node = CellTree::Node;
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    /// A part of a line along an axis inside the solid, or a gap in it.
+    struct Part {
+        Vec3 from;
+        std::size_t axis;
+        Interval range;
+        bool is_inside;
+    };
+
+    [[nodiscard]] Vec3 position(const Node& n) const {
+        return origin_ + unit_ * Vec3{double(n[0]), double(n[1]), double(n[2])};
+    }
+    [[nodiscard]] bool is_least(std::uint32_t cell) const { return tree_[cell].size == 1; }
+    [[nodiscard]] const Vec3& point(std::uint32_t cell) const { return vertex(cell).point; }
+
+    // ---- Division.
+    /// Divides cells that a box overlaps until none exceeds a size.
+    void split_to(std::uint32_t cell, const Box3& box, std::uint32_t size);
+    /// Divides the cells in the box of a part of the surface to half its least side, or into about
+    /// `most`.
+    void split_part(const Box3& part, double most);
+    /// Lets the largest of the cells around an edge be divided, unless they are the smallest.
+    void ask(const CellTree::Edge& edge);
+    void ask(std::uint32_t cell);
+    /// False if no division was asked for.
+    bool split_cells();
+
+    // ---- Lines along the edges of cells.
+    /// Where a line along an axis, through a node at 0, enters and leaves the solid.
+    std::span<const double> ends_of(const Node& through, std::size_t axis);
+    void forget_lines();
+    bool is_in(const Node& n);
+    /// False if a part of the solid, or a gap in it, that is thicker than the tolerance lies within
+    /// the edge.
+    bool sees_all(const CellTree::Edge& edge);
+
+    // ---- Edges.
+    /// Removes the edges of cells that were divided.
+    void drop_edges();
+    /// Adds the edges of new cells that the surface crosses.
+    void find_edges();
+    Crossing find_crossing(const CellTree::Edge& edge, bool starts_in);
+
+    // ---- Vertices, of cells whose crossings have changed.
+    void place_vertices();
+    /// The vertex of a cell with `crossings_`, the shortest on an edge of length `least`.
+    [[nodiscard]] Vertex make_vertex(const CellTree::Cell& cell, std::uint32_t least) const;
+
+    // ---- Tests of faces.
+    /// Deviation of the two triangles beside a diagonal from the surface normal: the negated least
+    /// cosine.
+    [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
+    /// Asks for a division of cells whose faces are not near the surface.
+    void test_faces();
+    bool is_face_near(const Face& face);
+    /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
+    /// between two cells in one of the triangles beside it.
+    bool is_near(const std::array<std::uint32_t, 3>& cells);
+
+    // ---- Lines that are not edges of cells.
+    /// Asks for a division of cells that the surface seems not to pass through, in which the middle
+    /// of a part is that is thicker than the tolerance.
+    void test_lines();
+    void find_parts();
+    /// The leaf that a point is in.
+    [[nodiscard]] std::uint32_t leaf_at(const Vec3& p) const;
+
+    SurfaceLine line_;
+    double unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
+    Box3 box_;
+    Vec3 origin_;
+    CellTree tree_;
+    SolidCoordinates* coordinates_;
+    std::vector<Edge> edges_;
+    std::vector<Vertex> vertices_;
+    std::vector<std::uint32_t> vertex_of_;             ///< [cell]
+    std::vector<std::uint8_t> is_changed_, is_asked_;  ///< [cell]
+    std::vector<std::uint32_t> asked_;                 ///< cells to divide
+    std::vector<Part> parts_;                          ///< of lines, to be found in the cells
+    bool has_parts_ = false;
+    std::vector<Crossing> crossings_;  ///< of one cell
+    /// Of lines along each axis, the range of `ends_`.
+    std::array<std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>>, 3> lines_;
+    std::vector<double> ends_;
+};
+
+}  // namespace alhazen
