@@ -5,6 +5,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/interruption.h"
+#include "alhazen/scene/nearby_parts.h"
 #include "alhazen/shading/materials/wall_material.h"
 
 namespace alhazen {
@@ -92,6 +93,11 @@ void GeometryCompiler::build(Scene& scene) {
     scene.has_partial_masks = has_partial_masks_;
     scene.hides_lights_from_some = hides_lights_from_some_;
     scene.has_motion = census_.moving_things > 0;
+    const bool any_volumes = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                         [](const Material& m) { return has_inside(m); });
+    scene.nearby_parts = any_volumes ? std::make_shared<const NearbyParts>(
+                                           *scene.aggregate, scene.materials, scene.has_motion)
+                                     : nullptr;
     scene.census = census_;
     scene.accelerator = options_.accelerator;
 }

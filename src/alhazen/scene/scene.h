@@ -15,6 +15,7 @@
 namespace alhazen {
 
 class Environment;
+class NearbyParts;
 
 /// Counts of a scene. Those of primitives are 0 without an aggregate.
 struct SceneCensus {
@@ -71,6 +72,8 @@ struct Scene {
     /// (ShadingConventions).
     std::vector<std::uint8_t> closed_parts;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
+    /// Null: no material lets light into volumes, or nothing is known.
+    std::shared_ptr<const NearbyParts> nearby_parts;
     std::string accelerator;  ///< name of the accelerator; empty without an aggregate
     SceneCensus census;
     /// Null: `background` lights the scene for physically based renderers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "alhazen/base/disjoint_sets.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
@@ -17,6 +18,11 @@
 namespace alhazen {
 
 namespace {
+
+/// Of boxes of solids, relative to their coordinates.
+constexpr double kSlack = 0x1p-26;
+/// A search for a solid beside another that takes longer has found one.
+constexpr std::size_t kMostVisits = 256;
 
 /// The scale of a similarity transform; 0 for others.
 double similarity_of(const Mat3& m) {
@@ -389,6 +395,52 @@ class ConeGatherer {
         }
         result_.tree = ConeTree(boxes);
         result_.solid_tree = ConeTree(solid_boxes);
+        const bool any_half_space =
+            std::any_of(result_.planes.begin(), result_.planes.end(),
+                        [&](std::uint32_t source) { return result_.sources[source].closed; });
+        if (!any_half_space) find_solids_apart(solid_boxes);
+    }
+
+    /// `boxes`: of the solids.
+    void find_solids_apart(std::span<const Box3> boxes) {
+        std::vector<Box3> wide;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            // Far more than the rounding of the boxes and of tests for points inside.
+            double coordinates =
+                std::max(max_component(abs(boxes[k].lo)), max_component(abs(boxes[k].hi)));
+            const ConeSource& source = result_.sources[result_.solids[k].source];
+            if (source.placed && source.kind == ConeSource::Kind::Mesh) {
+                for (const Vec3& p : source.mesh.mesh->positions) {
+                    coordinates = std::max(coordinates, max_component(abs(p)));
+                }
+            }
+            const double slack = kSlack * coordinates;
+            const Vec3 margin{slack, slack, slack};
+            wide.push_back({boxes[k].lo - margin, boxes[k].hi + margin});
+            result_.solids[k].apart = 0.5 * slack;
+        }
+        const ConeTree tree(wide);
+        for (std::uint32_t k = 0; k < wide.size(); ++k) {
+            if (meets_another(tree, wide, k)) result_.solids[k].apart = 0;
+        }
+    }
+    [[nodiscard]] static bool meets_another(const ConeTree& tree, std::span<const Box3> boxes,
+                                            std::uint32_t own) {
+        std::vector<std::uint32_t> waiting{0};
+        for (std::size_t visits = 0; !waiting.empty(); ++visits) {
+            if (visits == kMostVisits) return true;
+            const ConeTree::Node& node = tree.node(waiting.back());
+            waiting.pop_back();
+            // Rounded: its items are inside but for the slack.
+            const Box3 around{node.center - node.half, node.center + node.half};
+            if (intersection(around, boxes[own]).empty()) continue;
+            if (node.count == 0) waiting.insert(waiting.end(), {node.first, node.first + 1});
+            for (std::uint32_t k = 0; k < node.count; ++k) {
+                const std::uint32_t item = tree.item(node.first + k);
+                if (item != own && !intersection(boxes[item], boxes[own]).empty()) return true;
+            }
+        }
+        return false;
     }
 
     const SceneDescription& d_;

@@ -67,6 +67,8 @@ struct ConeSolid {
     std::uint32_t source = 0;
     std::uint32_t first_face = 0, end_face = 0;  ///< its faces, if it has any
     double size = 0;                             ///< diagonal of its box
+    /// No other closed source reaches points that are nearer to its boundary.
+    double apart = 0;
 };
 
 struct ConeScene {

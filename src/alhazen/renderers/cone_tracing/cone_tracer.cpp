@@ -224,7 +224,12 @@ std::optional<ConePiece> ConeTracer::piece_at(const Seen& seen, std::uint32_t so
 void ConeTracer::join_touching(const Seen& seen, ShadingPoint& point) {
     const bool bounds =
         may_bound_volume(scene_.material_of(point.surface)) && !point.material->thin;
-    if (!bounds || !geometry_.sources[seen.piece.source].closed) return;
+    const ConeSource& own = geometry_.sources[seen.piece.source];
+    if (!bounds || !own.closed) return;
+    if (own.kind != ConeSource::Kind::Plane &&
+        LeavingRays::margin(point.surface) < geometry_.solids[own.solid].apart) {
+        return;
+    }
     const Vec3& along = seen.ray.direction;
     const Vec3 before = leaving_ray(point.surface, -along).origin;
     const Vec3 behind = leaving_ray(point.surface, along).origin;

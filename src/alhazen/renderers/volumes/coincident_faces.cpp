@@ -7,8 +7,10 @@
 
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/unused_shear.h"
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
+#include "alhazen/scene/nearby_parts.h"
 
 namespace alhazen {
 
@@ -76,8 +78,7 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const bool is_sheet = point.material->thin;
     if (is_sheet ? kind == Kind::Opaque || surface.media.known : kind != Kind::BoundsVolume) return;
     ray_ = CoincidentSurfaces::around(surface, direction);
-    hits_.clear();
-    scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
+    find_hits(surface, arrival, mask);
     const HitParts own{surface.part, surface.instance};
     const std::uint64_t number = volume_number(surface);
     for (const Hit& hit : hits_) {
@@ -146,6 +147,21 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     others_.clear();
     opaque_.reset();
     instead_.reset();
+}
+
+void CoincidentFaces::find_hits(const Surface& surface, const Arrival& arrival, RayMask mask) {
+    hits_.clear();
+    const NearbyParts* near = scene_.nearby_parts.get();
+    const double reach = 0.5 * ray_.t_max;
+    if (near == nullptr || near->may_touch(surface, reach)) {
+        scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
+        return;
+    }
+    for (const NearbyParts::Unbounded& one : near->unbounded()) {
+        if (!one.may_touch(surface.point, reach)) continue;
+        scene_.aggregate->primitives().all_hits(one.id, ray_, kUnusedShear, hits_, NoStats{}, mask);
+    }
+    if (hits_.size() > 1) sort_appended(hits_, 0);
 }
 
 void CoincidentFaces::look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival) {

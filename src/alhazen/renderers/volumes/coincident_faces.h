@@ -120,6 +120,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
+    /// Finds `hits_` along `ray_`, without some of the part of the surface itself.
+    void find_hits(const Surface& surface, const Arrival& arrival, RayMask mask);
     /// `own`: the volume of the face that was hit; null: a thin sheet was.
     void look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival);
     /// Sorts `others_` and, if `own` is not null, the face that was hit of that volume, which is

@@ -316,6 +316,27 @@ TEST(TintByDistance, BodiesThatOverlapAreLeftInAnyOrder) {
         {0.25, 1, 0.25 * 0.25 * std::pow(0.5, 0.5)});
 }
 
+/// As rays of the eye: in both, from x = 2 to 3, the tint is that of the body left first.
+TEST(TintByDistance, LightPassesBodiesThatOverlapByTheOneLeftFirst) {
+    const auto lit = [](bool through_bodies) {
+        return [=](SceneMaker& m) {
+            if (through_bodies) {
+                m.add(BoxShape{{1, -4, -4}, {3, 4, 9}}, m.material(tinted(0.5)));
+                m.add(BoxShape{{2, -4, -4}, {4, 4, 9}}, m.material(tinted(0.8)));
+            }
+            add_wall(m, -1, matt({1, 1, 1}));
+            m.light(DirectionalLight{.to_light = normalize(Vec3{1, 0, 1}), .color = {1, 1, 1}});
+        };
+    };
+    const double step = std::sqrt(2.0);
+    for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
+        const Rgb all = color_of(renderer, lit(false)), found = color_of(renderer, lit(true));
+        EXPECT_NEAR(found.r, all.r * std::pow(0.5, 2 * step) * std::pow(0.8, step), 1e-6)
+            << renderer;
+        EXPECT_NEAR(found.g, all.g, 1e-6) << renderer;
+    }
+}
+
 TEST(TintByDistance, ShadowsAloneMayBeTintedByDistance) {
     for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
         const Rgb found = color_of(renderer, [](SceneMaker& m) {
