@@ -97,15 +97,19 @@ std::shared_ptr<const Aggregate> aggregate_of(TriangleMesh mesh) {
     return make_aggregate("wide_bvh", std::move(table));
 }
 
+/// Meshes with exact sums over their triangles.
+struct KnownMesh {
+    const char* file;
+    double area, volume;
+};
+constexpr KnownMesh kKnownMeshes[] = {{"cow", 108.845364, 53.5674458},
+                                      {"fandisk", 60.6691092, 20.2433749},
+                                      {"spot", 5.70951879, 0.718258788},
+                                      {"cheburashka", 1.21240317, 0.0543816195}};
+
 TEST(MeshMeasures, EveryFormatGivesTheExactSums) {
     ALHAZEN_NEEDS_DATA("meshes/alecjacobson");
-    struct Known {
-        const char* file;
-        double area, volume;
-    };
-    for (const Known& known :
-         {Known{"cow", 108.845364, 53.5674458}, Known{"fandisk", 60.6691092, 20.2433749},
-          Known{"spot", 5.70951879, 0.718258788}, Known{"cheburashka", 1.21240317, 0.0543816195}}) {
+    for (const KnownMesh& known : kKnownMeshes) {
         SCOPED_TRACE(known.file);
         const std::string file = std::string(known.file) + ".obj";
         Diagnostics found;
@@ -129,14 +133,7 @@ TEST(MeshMeasures, EveryFormatGivesTheExactSums) {
 
 TEST(MeshMeasures, AreaAndVolumeByRaysAreTheExactOnes) {
     ALHAZEN_NEEDS_DATA("meshes/alecjacobson");
-    struct Known {
-        const char* file;
-        double area, volume;
-    };
-    // Known values: exact sums over the triangles.
-    for (const Known& known :
-         {Known{"cow", 108.845364, 53.5674458}, Known{"fandisk", 60.6691092, 20.2433749},
-          Known{"spot", 5.70951879, 0.718258788}, Known{"cheburashka", 1.21240317, 0.0543816195}}) {
+    for (const KnownMesh& known : kKnownMeshes) {
         Diagnostics diagnostics;
         const TriangleMesh mesh = read_mesh(
             testing::test_data() / "meshes/alecjacobson/data" / (std::string(known.file) + ".obj"),

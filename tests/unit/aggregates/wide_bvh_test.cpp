@@ -11,6 +11,7 @@
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
+#include "unit/aggregates/conformance_scenes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -64,20 +65,6 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
         }
         compare_batches(*tested, rays, answers, name + " on " + target);
     }
-}
-
-/// Axis-parallel and diagonal rays between lattice points, with zeros of both signs.
-MakeRay lattice_rays(int reach) {
-    return [reach](RandomEngine& random) {
-        Ray ray{lattice_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
-        for (int k = 0; k < 3; ++k) {
-            constexpr double kComponents[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0, 2.0, -0x1p-1070};
-            ray.direction[k] = kComponents[random() % 8];
-        }
-        if (ray.direction == Vec3{}) ray.direction.x = random() % 2 == 0 ? 1.0 : -1.0;
-        if (random() % 4 == 0) ray.t_max = uniform_int(random, 0, 4);
-        return ray;
-    };
 }
 
 TEST(WideBvh, SingleSidedTrianglesShadowAsTheListSays) {
@@ -276,19 +263,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceWhereExponentsRunOut) {
 
 TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
     for (const double distance : {1e3, 1e6, 1e9, 1e12, 1e15, 1e30}) {
-        const auto rays = [distance](RandomEngine& random) {
-            Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
-            if (random() % 3 == 0) {
-                // Along an axis towards a point of the scene: the tests are free of rounding.
-                const int axis = uniform_int(random, 0, 2);
-                ray.origin = uniform_point(random, 1);
-                ray.origin[axis] = distance;
-                ray.direction[axis] = -1;
-                return ray;
-            }
-            ray.direction = uniform_point(random, 1) - ray.origin;
-            return ray;
-        };
+        const MakeRay rays = rays_from(distance);
         std::ostringstream name;
         name << "rays from " << distance;
         compare(name.str() + ", triangles", random_triangles(200, 1, 0.5, 17), rays, 500);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "alhazen/formats/core/importer.h"
+#include "support/expect_near.h"
 
 namespace alhazen::testing {
 
@@ -43,12 +44,6 @@ inline const Material& material_of(const Imported& i, std::size_t part) {
 template <class S>
 const S& shape_of(const Imported& i, std::size_t part = 0) {
     return std::get<S>(std::get<AnyShape>(i.parts().at(part).what));
-}
-
-inline void expect_near(const Vec3& a, const Vec3& b) {
-    EXPECT_NEAR(a.x, b.x, 1e-12);
-    EXPECT_NEAR(a.y, b.y, 1e-12);
-    EXPECT_NEAR(a.z, b.z, 1e-12);
 }
 
 }  // namespace alhazen::testing

@@ -20,18 +20,15 @@
 #include "support/image_texture.h"
 #include "support/odd_even_area.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/unit_pixels.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
+using testing::unit_pixels;
 
-/// Pixels of side 1, (0, 0) in the middle of the picture; the view is along -z from z = 100.
-OrthographicCamera unit_pixels(int size) {
-    const double side = size;
-    return {{0, 0, 100}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
-}
-/// Of the cone of such a pixel.
+/// Of the cone of a pixel of side 1.
 const double kRadius = std::sqrt(1 / kPi);
 
 Film picture_of(SceneMaker& maker, const Camera& camera, int width, int height,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/renderers/whitted/whitted.h"
+#include "support/expect_near.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::testing {
@@ -19,12 +20,6 @@ inline Rgb center(const Scene& scene, RayCounters& counters,
 inline Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
     RayCounters counters;
     return center(scene, counters, renderer);
-}
-
-inline void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.r, b.r, tolerance);
-    EXPECT_NEAR(a.g, b.g, tolerance);
-    EXPECT_NEAR(a.b, b.b, tolerance);
 }
 
 inline Material glowing(const Rgb& color) {

@@ -6,11 +6,13 @@
 #include <numbers>
 
 #include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "support/expect_near.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::expect_near;
 using testing::SceneMaker;
 
 /// Colour of the middle of the picture; the only sample goes exactly along the camera's axis.
@@ -23,12 +25,6 @@ Rgb center(const Scene& scene, RayCounters& counters, const TiledRenderer& rende
 Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
     RayCounters counters;
     return center(scene, counters, renderer);
-}
-
-void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.r, b.r, tolerance);
-    EXPECT_NEAR(a.g, b.g, tolerance);
-    EXPECT_NEAR(a.b, b.b, tolerance);
 }
 
 Material plain(double kd) {

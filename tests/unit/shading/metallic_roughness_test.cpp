@@ -2,9 +2,12 @@
 
 #include "alhazen/shading/materials/material.h"
 #include "alhazen/shading/materials/turn_to_view.h"
+#include "support/expect_near.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+using testing::expect_near;
 
 Material with(const MetallicRoughness& parameters, double index = 1.5) {
     Material m;
@@ -22,12 +25,6 @@ MetallicRoughness parameters(double metallic, double roughness) {
     p.roughness.value = roughness;
     return p;
 }
-void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.r, b.r, tolerance);
-    EXPECT_NEAR(a.g, b.g, tolerance);
-    EXPECT_NEAR(a.b, b.b, tolerance);
-}
-
 TEST(MetallicRoughness, ASmoothDielectricReflectsFourPercentAndIsItsBaseColour) {
     const MaterialSample s = sample_of(with(parameters(0, 0)));
     expect_near(s.reflective, {0.04, 0.04, 0.04});

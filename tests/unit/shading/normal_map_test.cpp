@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/expect_near.h"
+
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
-void expect_near(const Vec3& a, const Vec3& b) {
-    EXPECT_NEAR(a.x, b.x, 1e-12);
-    EXPECT_NEAR(a.y, b.y, 1e-12);
-    EXPECT_NEAR(a.z, b.z, 1e-12);
-}
+using testing::expect_near;
 
 const Vec3 kUp{0, 0, 1};
 const Rgb kTiltedRight{1, 0.5, 0.5}, kTiltedUp{0.5, 1, 0.5}, kFlat{0.5, 0.5, 1};

@@ -4,11 +4,13 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/solids/solid_list.h"
+#include "support/box_mesh.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::add_box;
 using testing::SceneMaker;
 
 /// Clearance of the only two shapes of a scene.
@@ -78,28 +80,10 @@ TEST(Clearance, AnEmptySolidHasNone) {
 TEST(Clearance, APinInAFrameHasAnUpperBoundOnly) {
     // A closed frame of four bars around a rod.
     TriangleMesh frame;
-    const auto add_bar = [&](const Vec3& lo, const Vec3& hi) {
-        const auto first = static_cast<std::uint32_t>(frame.positions.size());
-        for (int i = 0; i < 8; ++i) frame.positions.push_back(Box3{lo, hi}.corner(i));
-        for (const std::array<std::uint32_t, 3> t : {std::array<std::uint32_t, 3>{0, 2, 1},
-                                                     {1, 2, 3},
-                                                     {4, 5, 6},
-                                                     {5, 7, 6},
-                                                     {0, 1, 4},
-                                                     {1, 5, 4},
-                                                     {2, 6, 3},
-                                                     {3, 6, 7},
-                                                     {0, 4, 2},
-                                                     {2, 4, 6},
-                                                     {1, 3, 5},
-                                                     {3, 7, 5}}) {
-            frame.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-        }
-    };
-    add_bar({-3, 2, -1}, {3, 3, 1});
-    add_bar({-3, -3, -1}, {3, -2, 1});
-    add_bar({-3, -1.9, -1}, {-2, 1.9, 1});
-    add_bar({2, -1.9, -1}, {3, 1.9, 1});
+    add_box(frame, {{-3, 2, -1}, {3, 3, 1}});
+    add_box(frame, {{-3, -3, -1}, {3, -2, 1}});
+    add_box(frame, {{-3, -1.9, -1}, {-2, 1.9, 1}});
+    add_box(frame, {{2, -1.9, -1}, {3, 1.9, 1}});
     SceneMaker maker;
     maker.add(Cylinder{{0.5, 0.25, -4}, {0.5, 0.25, 4}, 1});
     maker.add(maker.mesh(frame));

@@ -10,11 +10,13 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
+#include "support/box_mesh.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::add_box;
 using testing::SceneMaker;
 
 /// Outlines of the only solid of a scene.
@@ -101,30 +103,8 @@ TEST(Section, CornersOfABoxAreFoundWithinTheTolerance) {
 TEST(Section, HolesRunTheOtherWayRound) {
     // A tube of square section as a mesh: two boxes, the inner one reversed.
     TriangleMesh tube;
-    const std::array<std::array<std::uint32_t, 3>, 12> faces{{{0, 2, 1},
-                                                              {1, 2, 3},
-                                                              {4, 5, 6},
-                                                              {5, 7, 6},
-                                                              {0, 1, 4},
-                                                              {1, 5, 4},
-                                                              {2, 6, 3},
-                                                              {3, 6, 7},
-                                                              {0, 4, 2},
-                                                              {2, 4, 6},
-                                                              {1, 3, 5},
-                                                              {3, 7, 5}}};
-    for (const double half : {2.0, 1.0}) {
-        const auto first = static_cast<std::uint32_t>(tube.positions.size());
-        const Box3 box{{-half, -half, -half}, {half, half, half}};
-        for (int i = 0; i < 8; ++i) tube.positions.push_back(box.corner(i));
-        for (const auto& f : faces) {
-            if (half == 2.0) {
-                tube.triangles.push_back({first + f[0], first + f[1], first + f[2]});
-            } else {
-                tube.triangles.push_back({first + f[0], first + f[2], first + f[1]});
-            }
-        }
-    }
+    add_box(tube, {{-2, -2, -2}, {2, 2, 2}});
+    add_box(tube, {{-1, -1, -1}, {1, 1, 1}}, true);
     SceneMaker maker;
     maker.add(maker.mesh(tube));
     const SolidList solids(maker.compile("wide_bvh").aggregate);

@@ -4,24 +4,18 @@
 
 #include <cmath>
 
+#include "support/box_mesh.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::box_mesh;
 using testing::Random;
 using testing::SceneMaker;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-TriangleMesh cube_mesh(const Vec3& lo, const Vec3& hi) {
-    TriangleMesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.positions.push_back(Box3{lo, hi}.corner(i));
-    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return mesh;
-}
 
 std::vector<std::pair<double, double>> times(const SpanList& list) {
     std::vector<std::pair<double, double>> t;
@@ -92,7 +86,7 @@ TEST(Spans, MeshesShapesAndInstancesOfInstancesAreToldApart) {
     SceneMaker maker;
     const ObjectIndex pair = maker.object("pair"), row = maker.object("row");
     maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, pair);
-    maker.add(maker.mesh(cube_mesh({2, -1, -1}, {3, 1, 1})), MaterialId{0}, {}, pair);
+    maker.add(maker.mesh(box_mesh({{2, -1, -1}, {3, 1, 1}})), MaterialId{0}, {}, pair);
     for (int i = 0; i < 3; ++i) {
         maker.add(pair, MaterialId{0}, Affine::translate({10.0 * i, 0, 0}), row);
     }
@@ -164,7 +158,7 @@ TEST(Inside, PointsOfRandomSolidsAreWhereTheirFormulasSay) {
     maker.add(BoxShape{{-1, -1, -1}, {1, 2, 1}});
     maker.add(Cylinder{{0, 0, -2}, {0, 0, 2}, 1.5});
     maker.add(Cone{{0, 0, 0}, {0, 0, 3}, 2, 0});
-    maker.add(maker.mesh(cube_mesh({0, 0, 0}, {2, 2, 2})));
+    maker.add(maker.mesh(box_mesh({{0, 0, 0}, {2, 2, 2}})));
     const SolidQueries queries(maker.compile("wide_bvh").aggregate);
     std::vector<Vec3> points;
     for (int i = 0; i < 4000; ++i) points.push_back(random.in_cube(3.5));
@@ -187,7 +181,7 @@ TEST(Inside, PointsOfRandomSolidsAreWhereTheirFormulasSay) {
 TEST(Inside, PointsOnFacesEdgesAndCornersOfABoxBelongToItAndSaySo) {
     SceneMaker maker;
     maker.add(BoxShape{{-1, -2, -3}, {1, 2, 3}});
-    maker.add(maker.mesh(cube_mesh({-1, -2, -3}, {1, 2, 3})), MaterialId{0},
+    maker.add(maker.mesh(box_mesh({{-1, -2, -3}, {1, 2, 3}})), MaterialId{0},
               Affine::translate({100, 0, 0}));
     const SolidQueries queries(maker.compile().aggregate);
     for (const double offset : {0.0, 100.0}) {
@@ -238,7 +232,7 @@ TEST(Spans, DirectionsOfAnyLengthMeetTheSame) {
     maker.add(cut, MaterialId{0}, Affine::translate({5, 0, 0}));
     maker.add(Torus{}, MaterialId{0}, Affine::translate({10, 0, 0}));
     maker.add(Algebraic{}, MaterialId{0}, Affine::translate({15, 0, 0}));
-    maker.add(maker.mesh(cube_mesh({19, -1, -1}, {21, 1, 1})));
+    maker.add(maker.mesh(box_mesh({{19, -1, -1}, {21, 1, 1}})));
     for (const char* accelerator : {"list", "wide_bvh"}) {
         const Scene scene = maker.compile(accelerator);
         const SolidQueries queries(scene.aggregate);

@@ -8,28 +8,14 @@
 #include <vector>
 
 #include "alhazen/geometry/box.h"
+#include "support/box_mesh.h"
 #include "support/random.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::add_box;
 using testing::Random;
-
-/// Appends a box as a shell of its own.
-void add_box(TriangleMesh& mesh, const Box3& box, bool inward) {
-    constexpr std::uint32_t kTriangles[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                 {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                 {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (int i = 0; i < 8; ++i) {
-        mesh.positions.push_back({i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
-                                  i & 4 ? box.hi.z : box.lo.z});
-    }
-    for (const auto& t : kTriangles) {
-        mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-        if (inward) std::swap(mesh.triangles.back()[0], mesh.triangles.back()[1]);
-    }
-}
 
 struct Shell {
     Box3 box;

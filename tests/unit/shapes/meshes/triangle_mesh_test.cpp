@@ -6,6 +6,7 @@
 
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
+#include "support/box_mesh.h"
 #include "support/quad.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
@@ -141,12 +142,7 @@ TEST(TriangleMesh, ClosednessOfPositionsThatAreNotNumbersIsAnswered) {
 }
 
 TEST(TriangleMesh, VolumeAndAreaAreThoseOfTheSolid) {
-    TriangleMesh cube;
-    for (int i = 0; i < 8; ++i) {
-        cube.positions.push_back({i & 1 ? 3.0 : 1.0, i & 2 ? 3.0 : 1.0, i & 4 ? 3.0 : 1.0});
-    }
-    cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    TriangleMesh cube = testing::box_mesh({{1, 1, 1}, {3, 3, 3}});
     ASSERT_TRUE(cube.closed());
     EXPECT_DOUBLE_EQ(signed_volume(cube), 8.0);
     EXPECT_DOUBLE_EQ(area(cube), 24.0);
