@@ -248,7 +248,6 @@ int run(const RenderArguments& args) {
                     "--tables is for renderers in scan lines: lane_carpenter, clark");
     }
     check_environment(args.environment, options.renderer);
-    check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     if (!args.projection.empty()) (void)parse_projection(args.projection);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);

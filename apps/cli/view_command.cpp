@@ -49,7 +49,6 @@ int run_view(ViewArguments& args) {
                                 "that is wanted",
                                 args.address));
     }
-    check_accelerator(args.scene.accelerator);
     use_one_heap();  // any thread renders the next frame
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
     // Most errors are found at once; then no page is opened.

@@ -92,6 +92,11 @@ class CommandLine(CommandLineCase):
         picture = self.path("out.png")
         for arguments in ([], ["paint"], ["render"], ["render", self.scene], ["render", self.scene, "-o", "x.gif"],
                           ["render", self.scene, "-o", picture, "--accelerator", "octopus"],
+                          ["render", self.scene, "-o", picture, "--csg", "octopus"],
+                          ["verify", self.scene, "--accelerator", "octopus"], ["info", self.scene, "--csg", "octopus"],
+                          ["vector", self.scene, "-o", self.path("out.svg"), "--accelerator", "octopus"],
+                          ["convert", self.scene, self.path("out.ply"), "--accelerator", "wide_bvh"],
+                          ["convert", self.scene, self.path("out.ply"), "--csg", "roth"],
                           ["render", self.scene, "-o", picture, "--renderer", "magic"],
                           ["render", self.scene, "-o", picture, "--size", "10"],
                           ["render", self.scene, "-o", picture, "--size", "0x10"],
