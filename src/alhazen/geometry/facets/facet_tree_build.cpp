@@ -55,7 +55,6 @@ class FacetTreeBuilder {
         merge_hulls();
         tree_.report_.nodes = tree_.nodes_.size();
         tree_.report_.pieces = tree_.pieces_.size();
-        tree_.report_.hull_corners = tree_.hull_points_.size();
     }
 
   private:
@@ -92,11 +91,8 @@ class FacetTreeBuilder {
                 std::min(before, behind) / counted};
     }
 
-    /// Tries the axis-aligned planes through the middle of the polygons; true if one divides them
-    /// better.
-    [[nodiscard]] bool try_free_planes(std::span<const FacetPiece> polygons,
-                                       PlaneRating& best) const {
-        bool found = false;
+    /// Takes an axis-aligned plane through the middle of the polygons if it divides them better.
+    void try_free_planes(std::span<const FacetPiece> polygons, PlaneRating& best) const {
         std::vector<double> middles;
         for (int axis = 0; axis < 3; ++axis) {
             middles.clear();
@@ -111,12 +107,10 @@ class FacetTreeBuilder {
             const PlaneRating rating = rate(plane, polygons);
             if (rating.cost >= best.cost || rating.least_side <= best.least_side) continue;
             best = rating;
-            found = true;
         }
-        return found;
     }
 
-    [[nodiscard]] PlaneRating choose(std::span<const FacetPiece> polygons) {
+    [[nodiscard]] PlaneRating choose(std::span<const FacetPiece> polygons) const {
         const std::size_t count =
             std::min<std::size_t>(std::max(options_.candidates, 1u), polygons.size());
         PlaneRating best;
@@ -126,7 +120,7 @@ class FacetTreeBuilder {
             if (k == 0 || rating.cost < best.cost) best = rating;
         }
         if (polygons.size() >= kManyOnOneSide && best.least_side < 0.125) {
-            tree_.report_.free_planes += try_free_planes(polygons, best);
+            try_free_planes(polygons, best);
         }
         return best;
     }
