@@ -12,7 +12,7 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/explain/spans/part_of_primitive.h"
 #include "alhazen/explain/tree/ray_tree_recorder.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
@@ -129,7 +129,7 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
     e.max_depth = depth;
     RayCounters counters;
     RecursiveEstimator<NoRandomness> estimator(job, 1, counters);
-    BoxFilter filter;
+    FiniteMean mean;
     for (std::size_t i = 0; i < samples.rays().size() && !job.stop_requested(); ++i) {
         Rgb radiance;
         if (i == chosen) {
@@ -137,10 +137,10 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
         } else {
             estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
         }
-        filter.add(radiance);
+        mean.add(radiance);
         e.samples.push_back({samples.place(i), radiance});
     }
-    e.pixel = filter.value();
+    e.pixel = mean.value();
 }
 
 AcceleratorWork work_of(const std::string& accelerator, const Scene& scene, const Ray& ray) {
