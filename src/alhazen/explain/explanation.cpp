@@ -22,6 +22,11 @@ namespace alhazen {
 
 namespace {
 
+/// Limit of the depth of the tree.
+constexpr int kMostDepth = 64;
+/// Limit of the recorded steps of the accelerator.
+constexpr std::size_t kMostSteps = 5'000;
+
 /// The samples of one pixel of a job.
 class PixelSamples {
   public:
@@ -99,7 +104,7 @@ bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNo
 void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const ExplainOptions& options,
                    int& depth, Explanation& e) {
     const int wished = depth;
-    depth = std::min(wished, options.most_depth);
+    depth = std::min(wished, kMostDepth);
     if (trace_tree(job, ray, options.most_rays, e.tree)) {
         if (!ends_by_depth(e.tree)) depth = wished;
         return;
@@ -167,9 +172,9 @@ void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options
     const PrimitiveTable& table = loaded.scene.aggregate->primitives();
     e.traversal = trace_traversal(loaded.scene, accelerator, ray);
     std::vector<TraversalStep>& steps = e.traversal.steps;
-    if (steps.size() > options.most_steps) {
-        e.steps_left_out = steps.size() - options.most_steps;
-        steps.resize(options.most_steps);
+    if (steps.size() > kMostSteps) {
+        e.steps_left_out = steps.size() - kMostSteps;
+        steps.resize(kMostSteps);
     }
     for (const TraversalStep& step : steps) {
         e.candidates.push_back(

@@ -25,7 +25,6 @@ namespace alhazen {
 
 struct FacetTreeOptions {
     std::uint32_t candidates = 8;  ///< number of polygon planes rated at each node
-    double split_cost = 4;         ///< cost of a cut polygon, in polygons out of balance
 };
 
 struct FacetTreeReport {

@@ -16,6 +16,8 @@ constexpr std::size_t kManyOnOneSide = 48;
 /// Number of polygons of one plane above which they form a tree of their own.
 constexpr std::size_t kManyInPlane = 6;
 constexpr std::size_t kHullCorners = 32;
+/// Cost of a cut polygon, in polygons out of balance.
+constexpr double kSplitCost = 4;
 
 enum class PlaneSide : std::uint8_t { In, Before, Behind, Both };
 
@@ -87,7 +89,7 @@ class FacetTreeBuilder {
             before += side == PlaneSide::Before || side == PlaneSide::Both;
             behind += side == PlaneSide::Behind || side == PlaneSide::Both;
         }
-        return {plane, (options_.split_cost * splits + std::abs(before - behind)) / counted,
+        return {plane, (kSplitCost * splits + std::abs(before - behind)) / counted,
                 std::min(before, behind) / counted};
     }
 
