@@ -89,7 +89,7 @@ void add_convert(CLI::App& app, int& exit_status) {
                      "Replace shapes by triangles at most this far from them, in units of the "
                      "scene")
         ->type_name("X");
-    command->add_flag("-q,--quiet", args->quiet, "No warnings, no summary");
+    add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }
 

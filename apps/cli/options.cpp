@@ -113,6 +113,10 @@ void add_strict(CLI::App& command, bool& strict) {
                      "Warnings about the scene are errors: exit 3, and nothing is done");
 }
 
+void add_quiet(CLI::App& command, bool& quiet) {
+    command.add_flag("-q,--quiet", quiet, "No progress, no warnings, no summary");
+}
+
 void ImageLimitArguments::add_to(CLI::App& command) {
     command
         .add_option("--max-image-pixels", max_pixels,
@@ -139,9 +143,8 @@ ImageLimits ImageLimitArguments::limits() const {
 void AcceleratorArguments::add_to(CLI::App& command, const std::string& default_name) {
     accelerator = default_accelerator = default_name;
     command
-        .add_option(
-            "--accelerator", accelerator,
-            "Accelerator, as NAME or NAME:SETTING=VALUE,...; see `alhazen list accelerators`")
+        .add_option("--accelerator", accelerator, "Accelerator; see `alhazen list accelerators`")
+        ->type_name("NAME[:SETTING=VALUE,...]")
         ->capture_default_str();
     command
         .add_option_function<std::string>(
@@ -235,6 +238,7 @@ void ReadArguments::add_to(CLI::App& command) {
         ->type_name("N")
         ->check(count_up_to(1'000'000'000));
     command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->envname("ALHAZEN_THREADS");

@@ -35,6 +35,9 @@ void check_one_view(const std::string& view, const std::string& camera);
 /// Adds the option --strict (LoadOptions::strict).
 void add_strict(CLI::App& command, bool& strict);
 
+/// Adds the option --quiet.
+void add_quiet(CLI::App& command, bool& quiet);
+
 /// Size limits of pictures read from files.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;

@@ -358,6 +358,7 @@ void add_render(CLI::App& app, int& exit_status) {
     command
         ->add_option("--renderer", args->render.renderer,
                      "Renderer by name; see `alhazen list renderers`")
+        ->type_name("NAME[:SETTING=VALUE,...]")
         ->capture_default_str();
     command
         ->add_option("--spp", args->spp,
@@ -398,6 +399,7 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's. Of what follows "
                      "paths: N + 1 scatterings at most; default: that of its setting depth")
+        ->type_name("N")
         ->check(CLI::Range(0, 1000));
     command
         ->add_option(
@@ -419,9 +421,11 @@ void add_render(CLI::App& app, int& exit_status) {
             "equisolid (180 degrees high unless given), panorama (all around), perspective (45)")
         ->type_name("NAME[:DEGREES]");
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")
+        ->type_name("N")
         ->capture_default_str()
         ->check(unsigned_number());
     command->add_option("--tile-size", args->render.tile_size, "Side of a tile in pixels")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(1, 4096));
     command
@@ -440,6 +444,7 @@ void add_render(CLI::App& app, int& exit_status) {
         ->type_name("KELVIN")
         ->check(number_in(ToneMapping::kLeastKelvin, ToneMapping::kMostKelvin));
     command->add_option("--bits", args->bits, "Bits per channel of a PNG")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::IsMember({8, 16}));
     command->add_flag("--full-float", args->full_float, "EXR in float instead of half");
@@ -454,8 +459,10 @@ void add_render(CLI::App& app, int& exit_status) {
                          aovs)
         ->type_name("LIST");
     command->add_flag("--aov-png", args->aov_png, "OUT.NAME.png of each layer beside an .exr, too");
-    command->add_option("--protocol", args->protocol,
-                        "Count as published: spd = 513x513 corner rays, depth 5");
+    command
+        ->add_option("--protocol", args->protocol,
+                     "Count as published: spd = 513x513 corner rays, depth 5")
+        ->type_name("NAME");
     command->add_flag("--no-counts", args->no_counts,
                       "With --stats: count no tests, which takes time");
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
@@ -473,7 +480,7 @@ void add_render(CLI::App& app, int& exit_status) {
         ->type_name("FILE.ply");
     command->add_flag("--spectral", args->spectral,
                       "Light by wavelengths instead of red, green and blue: glass disperses");
-    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    add_quiet(*command, args->quiet);
     command->callback([args, command, &exit_status] {
         for (const char* option : {"--tonemap", "--exposure", "--white-balance"}) {
             args->names_tone = args->names_tone || command->count(option) > 0;

@@ -34,6 +34,16 @@ class CommandLine(CommandLineCase):
             self.assertEqual(result.stdout, run(*command, "--help").stdout)
         self.assertRegex(run("help", "paint").stderr, "'paint'.*render, convert")
 
+    def test_help_names_every_value_and_says_the_same_of_quiet(self):
+        commands = re.findall(r"^  (\w+) ", run("--help").stdout.partition("Subcommands:")[2], re.MULTILINE)
+        self.assertGreater(len(commands), 15)
+        quiet = set()
+        for command in commands:
+            text = run(command, "--help").stdout
+            self.assertEqual(re.findall(r"^  [-\w,]+ (?:TEXT|U?INT|FLOAT)\b.*", text, re.MULTILINE), [], command)
+            quiet.update(re.findall(r"-q,--quiet +(.*)", text))
+        self.assertEqual(quiet, {"No progress, no warnings, no summary"})
+
     def test_an_option_given_twice_is_said_to_be(self):
         result = self.render("-t", "1", "-t", "2")
         self.assertEqual(result.returncode, 2)
