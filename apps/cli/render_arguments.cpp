@@ -293,6 +293,7 @@ bool writes_aov_pictures(const RenderArguments& args) {
 
 CheckedRender checked(const RenderArguments& args) {
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
+    (void)tone_mapping(args);
     RenderOptions options = render_options(args);
     std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
     const bool rounds = options.sampling && options.sampling->has_rounds();

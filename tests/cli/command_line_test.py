@@ -116,7 +116,7 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--crop", "5,5,5,9"],
                           ["render", self.scene, "-o", picture, "--camera", "nobody"],
                           ["render", self.scene, "-o", picture, "--encoding", "gamma"],
-                          ["render", self.scene, "-o", picture, "--tonemap", "filmic"],
+                          ["render", self.path("none.alhazen"), "-o", picture, "--tonemap", "filmic"],
                           ["render", self.scene, "-o", picture, "--exposure", "nan"],
                           ["render", self.scene, "-o", picture, "--white-balance", "0"],
                           ["render", self.scene, "-o", picture, "--environment", "studio"],
