@@ -39,6 +39,10 @@ class EmitterList {
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none if it is not included.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
+    /// Calls `prefer_area` for all emitters.
+    void prefer_area() {
+        for (Emitter& e : emitters_) alhazen::prefer_area(e);
+    }
     /// A bound of the rounding of the points of an emitter, in world space and in the frames that
     /// hold it, and of the tests that find them, times the margin of LeavingRays.
     [[nodiscard]] double rounding(std::size_t i) const {

@@ -146,6 +146,7 @@ void Illumination::Data::set_choices() {
 
 void Illumination::Data::set_flat() {
     if (near_count() <= kCachedLights) return;
+    emitters.prefer_area();
     flat.reserve(emitters.size());
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const Rgb* const radiance = constant_radiance(i);
