@@ -118,6 +118,7 @@ class EmitterList {
     bool may_shine_ = false, has_unsampled_ = false;
     std::vector<Emitter> emitters_;
     std::vector<bool> varying_;               ///< [emitter] its radiance is not constant
+    std::vector<bool> has_area_;              ///< [emitter] its area is above 0
     std::vector<double> rounding_in_frames_;  ///< [emitter] but for world space
 };
 
