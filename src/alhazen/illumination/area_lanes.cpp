@@ -16,24 +16,6 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace area_lanes {
 
-/// True where the solid angle of an emitter is certain to be below kLeastSolidAngle by the angle at
-/// which it is seen: at least 16 times the sum of its edges away (their squares are `edges`), its
-/// points are at least 15 / 16 of the distance away, and the solid angle is at most area * height /
-/// (distance of the nearest point)^3. The margin covers the rounding of all.
-template <std::size_t N>
-HWY_INLINE LaneMask<double, N> looks_small(const Lanes<double, N>& squared,
-                                           const Lanes<double, N>& height,
-                                           const Lanes<double, N>& edges,
-                                           const Lanes<double, N>& area_density) {
-    using D = Lanes<double, N>;
-    constexpr double kMargin = 1.02;
-    constexpr double kNearest = 15.0 / 16.0;
-    constexpr double kLeast = kLeastSolidAngle / kMargin * (kNearest * kNearest * kNearest);
-    const D most = D(kLeast * kLeast) * (area_density * area_density);
-    return (squared > D(2.0 * 16.0 * 16.0) * edges) &
-           (height * height < most * (squared * squared * squared));
-}
-
 /// `is_sampled_by_area`, `point_of`, `seen_by_area` and Illumination::draw, operation by operation.
 template <std::size_t N>
 HWY_INLINE void draw(std::uint32_t lanes, const LightCallLanes& calls, AreaLanes::Numbers& n,
@@ -46,8 +28,7 @@ HWY_INLINE void draw(std::uint32_t lanes, const LightCallLanes& calls, AreaLanes
     const Vectors x = load_vectors<N>(n.x), y = load_vectors<N>(n.y);
     const D away = dot(to_corner, to_corner), height = dot(to_corner, normal);
     const LaneMask<double, N> by_area =
-        (away > load_lanes<N>(n.far_squared)) | (abs(height) <= load_lanes<N>(n.in_plane)) |
-        looks_small(away, height, dot(x, x) + dot(y, y), load_lanes<N>(n.area_density));
+        (away > load_lanes<N>(n.far_squared)) | (abs(height) <= load_lanes<N>(n.in_plane));
     n.drawn = lanes & bits_of(by_area);
 
     const D u = load_lanes<N>(calls.u[0]), v = load_lanes<N>(calls.u[1]), root = sqrt(u);

@@ -320,6 +320,14 @@ bool make_ready(Emitter& e) {
            is_finite(axis_z(e)) && e.radiance.is_finite();
 }
 
+void prefer_area(Emitter& e) {
+    if (e.form != EmitterForm::Triangle && e.form != EmitterForm::Rectangle) return;
+    // The density by solid angle of samples by area is as the cube of the distance.
+    constexpr double kFarInEdges = 8.0;
+    const double far = kFarInEdges * (length(axis_x(e)) + length(axis_y(e)));
+    e.far_squared = std::min(e.far_squared, far * far);
+}
+
 EmitterSample sample_near(const EmittingTriangle& e, const Vec3& from, const Vec2& u) {
     const Vec3 corner = e.corner - from;
     const SphericalTriangle seen(corner, corner + e.x, corner + e.y);

@@ -65,7 +65,8 @@ struct alignas(64) Emitter {
     bool unseen = false;
     double area = 0;  ///< of one side; of curved forms by numerical integration
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
-    /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
+    /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle, or
+    /// `prefer_area` was called.
     double far_squared = std::numeric_limits<double>::infinity();
     /// The same forms: nearer to its plane a point may lie in it, but for rounding. Sphere: as
     /// near to a point of it, in its own frame.
@@ -82,6 +83,11 @@ struct alignas(64) Emitter {
 /// Sets `area`, `right_angled`, `sides`, `far_squared` and `in_plane`. False if the area is 0 or
 /// some value is not finite.
 [[nodiscard]] bool make_ready(Emitter& emitter);
+
+/// Samples a triangle, or a rectangle with perpendicular edges, by area from nearer points, too:
+/// from eight times the sum of its edges away, where the density of samples by area varies by a few
+/// percent. For many lights, which are sampled by area in lanes. Precondition: `make_ready`.
+void prefer_area(Emitter& emitter);
 
 /// True if a point is certain to be where the emitter is sampled by area: far away, or in its
 /// plane, where rounding alone decides between a solid angle of 0 and of half of all directions.

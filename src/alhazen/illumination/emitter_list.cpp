@@ -53,6 +53,7 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
             if (!emitters_[i].radiance.is_finite()) emitters_[i].area = 0.0;
         }
     }
+    for (const Emitter& e : emitters_) has_area_.push_back(e.area > 0.0);
 }
 
 bool EmitterList::emits(const Material& m) const {
@@ -256,7 +257,8 @@ std::optional<std::size_t> EmitterList::find(const Hit& hit) const {
             number += hit.part;
         }
     }
-    if (number >= emitters_.size() || !(emitters_[number].area > 0.0)) return std::nullopt;
+    // Emitters of many lights are not in the cache.
+    if (number >= emitters_.size() || !has_area_[number]) return std::nullopt;
     return number;
 }
 

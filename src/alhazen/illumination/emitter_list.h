@@ -39,6 +39,10 @@ class EmitterList {
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none if it is not included.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
+    /// Calls `prefer_area` for all emitters.
+    void prefer_area() {
+        for (Emitter& e : emitters_) alhazen::prefer_area(e);
+    }
     /// A bound of the rounding of the points of an emitter, in world space and in the frames that
     /// hold it, and of the tests that find them, times the margin of LeavingRays.
     [[nodiscard]] double rounding(std::size_t i) const {
@@ -114,6 +118,7 @@ class EmitterList {
     bool may_shine_ = false, has_unsampled_ = false;
     std::vector<Emitter> emitters_;
     std::vector<bool> varying_;               ///< [emitter] its radiance is not constant
+    std::vector<bool> has_area_;              ///< [emitter] its area is above 0
     std::vector<double> rounding_in_frames_;  ///< [emitter] but for world space
 };
 

@@ -146,6 +146,7 @@ void Illumination::Data::set_choices() {
 
 void Illumination::Data::set_flat() {
     if (near_count() <= kCachedLights) return;
+    emitters.prefer_area();
     flat.reserve(emitters.size());
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const Rgb* const radiance = constant_radiance(i);
@@ -294,10 +295,16 @@ double Illumination::density(const LitPoint& at, const Ray& ray, const Hit& hit,
                              const Surface& surface, double distance) const {
     const std::optional<std::size_t> found = data_->emitters.find(hit);
     if (!found) return 0.0;
+    const Emitter& emitter = data_->emitters[*found];
+    fetch(emitter);
     const double probability = data_->near_share * data_->probability_of_near(at, *found);
     if (!(probability > 0.0)) return 0.0;
     const EmitterHit there{normalize(ray.direction), distance, surface.normal, {hit.u, hit.v}};
-    return probability * alhazen::density(data_->emitters[*found], at.point, there);
+    return probability * alhazen::density(emitter, at.point, there);
+}
+
+bool Illumination::has_environment() const {
+    return data_->environment != nullptr;
 }
 
 Spectrum Illumination::environment(const Vec3& direction, const Wavelengths& waves) const {

@@ -92,6 +92,8 @@ class Illumination {
     [[nodiscard]] double density(const LitPoint& at, const Ray& ray, const Hit& hit,
                                  const Surface& surface, double distance) const;
 
+    /// False if rays that leave the scene meet no light.
+    [[nodiscard]] bool has_environment() const;
     /// The radiance of the environment along a ray that leaves the scene.
     [[nodiscard]] Spectrum environment(const Vec3& direction, const Wavelengths& waves) const;
     /// The density of `draw(at)` for that direction to the environment.

@@ -9,18 +9,6 @@
 
 namespace alhazen {
 
-namespace {
-
-/// Prefetches an emitter: those of many lights are not in the cache.
-template <class AnyEmitter>
-[[gnu::always_inline]] inline void fetch(const AnyEmitter& emitter) {
-    constexpr std::size_t kLine = 64;
-    const auto* const bytes = reinterpret_cast<const char*>(&emitter);
-    for (std::size_t at = 0; at < sizeof(emitter); at += kLine) __builtin_prefetch(bytes + at);
-}
-
-}  // namespace
-
 LightDraws::LightDraws(const Illumination& lights) : lights_(lights) {
     const Illumination::Data& d = *lights.data_;
     if (d.options.choice == LightChoice::Tree && !d.tree.empty() && d.tree.root().is_leaf()) {

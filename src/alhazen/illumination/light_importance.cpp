@@ -50,25 +50,26 @@ std::array<float, LightTree::kWidth> importances(const LightTree::Node& node,
         const float x = node.center[0][i] - at.point[0], y = node.center[1][i] - at.point[1],
                     z = node.center[2][i] - at.point[2];
         const float squared = x * x + y * y + z * z, variance = node.variance[i];
+        const float intensity =
+            std::bit_cast<float>(node.intensity_turn[i] & LightTree::kIntensityMask);
+        const float turn =
+            std::bit_cast<float>(node.intensity_turn[i] << (32 - LightTree::kTurnBits));
         const float axis_x = lower_number(node.axis_xy[i]), axis_y = upper_number(node.axis_xy[i]);
         const float axis_z = lower_number(node.axis_z_radius2[i]);
         const float radius2 = std::bit_cast<float>(node.axis_z_radius2[i] & 0xFFFF0000u);
 
-        const float along = -((axis_x * x + axis_y * y + axis_z * z) * kUnit);
-        const float equal = (axis_x * axis_x + axis_y * axis_y + axis_z * axis_z) * (kUnit * kUnit);
-        const float turn = kTurned * std::max(0.0f, 1.0f - equal) + kLeastTurn;
+        const float along = (axis_x * x + axis_y * y + axis_z * z) * -kUnit;
         const float sent_root = std::sqrt(along * along + turn * squared + variance);
-        const float sent = sent_root + (node.intensity[i] < 0.0f ? sent_root : along);
+        const float sent = sent_root + (intensity < 0.0f ? sent_root : along);
 
         const float height = at.normal[0] * x + at.normal[1] * y + at.normal[2] * z;
         const float grazing = kGrazing * squared, height2 = height * height;
         const float received_root = std::sqrt(height2 + (variance + grazing));
-        float received = received_root + (at.both_sides ? received_root : height);
-        if (at.in_volume) received = 2.0f * std::sqrt(squared + variance);
-        const bool below = height < 0.0f && height2 >= radius2 + grazing;
-
         const float spread = squared + variance;
-        const float importance = std::abs(node.intensity[i]) * sent * received / (spread * spread);
+        float received = received_root + (at.both_sides ? received_root : height);
+        if (at.in_volume) received = 2.0f * std::sqrt(spread);
+        const bool below = height < 0.0f && height2 >= radius2 + grazing;
+        const float importance = std::abs(intensity) * sent * received / (spread * spread);
         const bool dark = (below && !at.both_sides && !at.in_volume) ||
                           (cones != nullptr && is_outside(*cones, i, x, y, z));
         result[i] = dark ? 0.0f : importance;

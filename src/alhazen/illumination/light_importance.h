@@ -4,7 +4,7 @@
 /// For a node of intensity I with the mean axis m (shorter than 1 where axes differ) and the
 /// variance v of places along an axis, and a point at the offset x with the normal n:
 ///     I (a + sqrt(a^2 + s x^2 + v)) (c + sqrt(c^2 + v)) / (x^2 + v)^2,
-///     a = -m x, c = n x, s = kTurned (1 - m^2).
+///     a = -m x, c = n x, s = max(kTurned (1 - m^2), kLeastTurn).
 /// (a + sqrt(a^2 + s x^2)) / 2 estimates the mean of max(0, cosine) |x| over the lights: exactly
 /// where all axes are equal, and where they are all directions alike. The term v does the same for
 /// different places. Of two-sided nodes, and points that light from both sides reaches, the roots

@@ -159,6 +159,13 @@ std::uint32_t low_half(double axis) {
     return static_cast<std::uint16_t>(number);
 }
 
+/// The float next to `x` that has zeros below its first bits.
+std::uint32_t first_bits(double x, int count) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
+    const std::uint32_t unit = 1u << (32 - count);
+    return (bits + unit / 2) & ~(unit - 1);
+}
+
 /// The upper half of a float that is not below `x`.
 std::uint32_t high_half_above(double x) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
@@ -305,8 +312,7 @@ class LightTreeBuilder {
     static void set_none(LightTree::Node& node, std::size_t i) {
         for (auto& place : node.center) place[i] = 0.0f;
         node.variance[i] = 1.0f;
-        node.intensity[i] = 0.0f;
-        node.axis_xy[i] = node.axis_z_radius2[i] = 0;
+        node.intensity_turn[i] = node.axis_xy[i] = node.axis_z_radius2[i] = 0;
     }
 
     static Cluster cone_of(const TreeLight& l) {
@@ -328,9 +334,11 @@ class LightTreeBuilder {
         const double variance = kVarianceFactor * m.variance * (tree.scale_ * tree.scale_);
         to.variance[i] =
             static_cast<float>(std::max(variance, std::max(2e-6 * radius * radius, 1e-12)));
-        const auto share =
-            static_cast<float>(std::clamp(m.intensity / intensity_, kLeastIntensity, 1.0));
-        to.intensity[i] = m.two_sided ? -share : share;
+        const double share = std::clamp(m.intensity / intensity_, kLeastIntensity, 1.0);
+        const double turn = std::max(kTurned * (1.0 - length_squared(m.axis)), double{kLeastTurn});
+        constexpr int kTurnBits = LightTree::kTurnBits;
+        to.intensity_turn[i] = first_bits(m.two_sided ? -share : share, 32 - kTurnBits) |
+                               first_bits(turn, kTurnBits) >> (32 - kTurnBits);
         to.axis_xy[i] = low_half(m.axis.x) | low_half(m.axis.y) << 16;
         // More than (radius + error)^2, if the square of the error is a hundredth of kGrazing.
         to.axis_z_radius2[i] = low_half(m.axis.z) | high_half_above(1.01 * radius * radius);

@@ -73,7 +73,9 @@ class LightTree {
     struct alignas(128) Node {
         OfChildren<float> center[3];  ///< mean of the lights by intensity
         OfChildren<float> variance;   ///< about the centre, along one axis; enlarged, never 0
-        OfChildren<float> intensity;  ///< share of all; negative: that of two-sided lights
+        /// The upper 19 bits of the float of the share of all intensity, negative that of two-sided
+        /// lights; the upper 13 bits of the float of the factor s of light_importance.h.
+        OfChildren<std::uint32_t> intensity_turn;
         /// x and y of the mean of the axes of emission, in units of 1 / kAxisUnits, 16 bits each.
         OfChildren<std::uint32_t> axis_xy;
         /// z of that mean, 16 bits; the upper half of the float of a squared radius around the
@@ -82,6 +84,8 @@ class LightTree {
         OfChildren<Link> links;
     };
     static constexpr float kAxisUnits = 32767.0f;
+    static constexpr int kTurnBits = 13;
+    static constexpr std::uint32_t kIntensityMask = ~((1u << kTurnBits) - 1);
     /// The cones of emission of the children of a node, [child], around all axes of their lights.
     struct Cones {
         OfChildren<float> axis[3];

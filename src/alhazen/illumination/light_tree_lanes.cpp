@@ -141,10 +141,16 @@ HWY_INLINE Numbers importances_of(const Walkers& w, std::size_t half) {
     const auto point = [&](std::size_t k) HWY_ATTR { return load_lanes<kLanes>(w.point[half][k]); };
     const auto normal = [&](std::size_t k)
                             HWY_ATTR { return load_lanes<kLanes>(w.normal[half][k]); };
-    const Numbers zero(0.0f), one(1.0f);
+    const Numbers zero(0.0f);
     const Numbers x = numbers_of(nodes, 0) - point(0), y = numbers_of(nodes, 1) - point(1),
                   z = numbers_of(nodes, 2) - point(2);
     const Numbers squared = x * x + y * y + z * z, variance = numbers_of(nodes, 3);
+    const Integers intensities = member_of(IntegerTag(), nodes, 4);
+    constexpr auto kIntensityMask = static_cast<std::int32_t>(LightTree::kIntensityMask);
+    Numbers intensity, turn;
+    intensity.part[0] =
+        hn::BitCast(FloatTag(), hn::And(intensities, hn::Set(IntegerTag(), kIntensityMask)));
+    turn.part[0] = hn::BitCast(FloatTag(), hn::ShiftLeft<32 - LightTree::kTurnBits>(intensities));
     const Integers axes_xy = member_of(IntegerTag(), nodes, 5);
     const Integers axes_z = member_of(IntegerTag(), nodes, 6);
     const Numbers axis_x = lower_numbers(axes_xy), axis_y = upper_numbers(axes_xy);
@@ -153,12 +159,8 @@ HWY_INLINE Numbers importances_of(const Walkers& w, std::size_t half) {
     radius2.part[0] =
         hn::BitCast(FloatTag(), hn::And(axes_z, hn::Set(IntegerTag(), std::int32_t{-0x10000})));
 
-    const Numbers along = -((axis_x * x + axis_y * y + axis_z * z) * Numbers(kUnit));
-    const Numbers equal =
-        (axis_x * axis_x + axis_y * axis_y + axis_z * axis_z) * Numbers(kUnit * kUnit);
-    const Numbers turn = Numbers(kTurned) * max_lanes(one - equal, zero) + Numbers(kLeastTurn);
+    const Numbers along = (axis_x * x + axis_y * y + axis_z * z) * Numbers(-kUnit);
     const Numbers sent_root = sqrt(along * along + turn * squared + variance);
-    const Numbers intensity = numbers_of(nodes, 4);
     const Numbers sent = sent_root + select_lanes(intensity < zero, sent_root, along);
 
     const Numbers height = normal(0) * x + normal(1) * y + normal(2) * z;

@@ -653,5 +653,50 @@ TEST(Emitters, FarOnesAreSampledAsTheirSolidAngleSays) {
     EXPECT_GT(near, 5000);
 }
 
+// The mean of 1 / density is the solid angle, whichever way is preferred.
+TEST(Emitters, ThoseThatPreferAreaHaveTheSameSolidAngle) {
+    RandomStream random(12);
+    int by_area = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto vector = [&] {
+            return Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        };
+        Emitter e;
+        e.form = i % 2 == 0 ? EmitterForm::Triangle : EmitterForm::Rectangle;
+        e.two_sided = true;
+        e.radiance = {1, 1, 1};
+        const Vec3 x = vector();
+        Vec3 y = vector();
+        if (e.form == EmitterForm::Rectangle) y = cross(x, y) / length(x);
+        e.world_from_own.linear = {x, y, normalize(cross(x, y))};
+        ASSERT_TRUE(make_ready(e));
+        const double edges = length(x) + length(y);
+        const Vec3 away = normalize(vector());
+        if (std::abs(dot(away, e.world_from_own.linear.z_axis)) < 0.01) continue;
+        const Vec3 from = (edges * random.uniform(4, 16)) * away;
+        const double solid_angle =
+            e.form == EmitterForm::Triangle
+                ? SphericalTriangle(-from, x - from, y - from).solid_angle()
+                : SphericalRectangle(-from, RectangleSides::of(x, y)).solid_angle();
+        prefer_area(e);
+        EXPECT_EQ(is_sampled_by_area(e, from) ||
+                  solid_angle<kLeastSolidAngle, length(from)> 8.0 * edges ||
+                  solid_angle < kLeastSolidAngle);
+        by_area += is_sampled_by_area(e, from) && solid_angle > 1.1 * kLeastSolidAngle;
+        constexpr int kGrid = 16;
+        double sum = 0.0;
+        for (int k = 0; k < kGrid * kGrid; ++k) {
+            const Vec2 u{(k % kGrid + 0.5) / kGrid, (k / kGrid + 0.5) / kGrid};
+            const EmitterSample s = sample(e, from, u);
+            const EmitterHit hit{s.to_light, s.distance, e.world_from_own.linear.z_axis,
+                                 s.parameters};
+            EXPECT_NEAR(density(e, from, hit), s.density, 1e-9 * s.density) << i;
+            sum += 1.0 / s.density;
+        }
+        EXPECT_NEAR(sum / (kGrid * kGrid), solid_angle, 1e-3 * solid_angle) << i;
+    }
+    EXPECT_GT(by_area, 200);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -97,6 +97,10 @@ class ScatterPoint {
     }
     /// True if paths may pass the surface straight.
     [[nodiscard]] bool may_be_passed() const { return null_ || straight_probability() > 0.0; }
+    /// True if no light leaves the surface but its own.
+    [[nodiscard]] bool is_black() const {
+        return !has_density() && !has_singular() && !may_be_passed();
+    }
     [[nodiscard]] bool has_density() const {
         return bsdf().has_density() || (coat_ && coat_->has_density());
     }

@@ -31,6 +31,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                         : kMostWaiting),
       uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
       escapes_later_(uses_lanes_ && lights.has_sky_picture()),
+      has_environment_(lights.has_environment()),
       plain_(scene_),
       // LeavingRays at triangles: four times that bound at their largest coordinate, at most.
       most_beside_(lights.rounding() + 4.0 * rounding_within(scene_.aggregate->box())),
@@ -106,13 +107,15 @@ void PathTracer::bounce(bool first) {
         first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
-            EyePath& path = paths_[alive_[k]];
-            Spectrum& sum = light_[path.sample];
-            if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
+            const std::uint32_t sample = alive_[k];
+            EyePath& path = paths_[sample];
+            Spectrum& sum = light_[sample];
+            if (sample == recorded_) record_ray(path, rays_[k], point, t);
             if (point == nullptr) {
-                const Medium* const medium = path.media.here();
+                const Medium* const medium = media_.any() ? path.media.here() : nullptr;
                 const bool scatters = medium != nullptr && media_.in(*medium) != nullptr;
                 if (scatters && cross_medium(path, *medium, rays_[k], kInfinity, sum)) return;
+                if (!has_environment_) return;
                 if (!escapes_later_) return escape(path, rays_[k], sum);
                 escaped_.push_back(static_cast<std::uint32_t>(k));
                 return;
@@ -198,6 +201,7 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         return;
     }
     if (vertex.scatter.needs_hero()) keep_hero(path);
+    if (vertex.scatter.is_black()) return;
     vertex.path = &path;
     vertex.point = most_waiting_ == 1 ? &point : nullptr;
     vertex.place = point.surface.point;

@@ -223,6 +223,7 @@ class PathTracer {
     std::size_t waiting_ = 0, most_waiting_;
     bool uses_lanes_;                     ///< plain vertices are handled in lanes
     bool escapes_later_;                  ///< paths wait in `escaped_`
+    bool has_environment_;                ///< Illumination::has_environment
     std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
     /// Bound of how far shadow rays of plain vertices pass beside their points, and of the rounding
