@@ -9,7 +9,7 @@
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/sampling/random.h"
-#include "unit/renderers/antialiased_picture.h"
+#include "unit/renderers/antialias/antialiased_picture.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {

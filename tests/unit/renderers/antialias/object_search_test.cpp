@@ -8,7 +8,7 @@
 #include "alhazen/renderers/antialias/scene_objects.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
-#include "unit/renderers/antialiased_picture.h"
+#include "unit/renderers/antialias/antialiased_picture.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
