@@ -46,7 +46,7 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
     }
     if (medium.physical && medium.thin) return result;
     const Body body = body_of(surface);
-    if (by_distance && leaving && (closed || volumes.empty()) && volumes.is_innermost(body)) {
+    if (by_distance && leaving && (closed || volumes.empty())) {
         result.body = power(medium.transmissive, length);
     } else {
         result.way = volumes.through(length);

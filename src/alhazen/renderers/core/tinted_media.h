@@ -65,10 +65,6 @@ class CrossedVolumes {
         left_ = place_of(body);
         if (left_) volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(*left_));
     }
-    /// Whether it is the body that surrounds the ray: no other has been entered since.
-    [[nodiscard]] bool is_innermost(const Body& body) const {
-        return volumes_.empty() || place_of(body) == volumes_.size() - 1;
-    }
     /// At a wall of a body: its next medium is in the place of the one that was left there.
     void enter_behind_wall(const Rgb& absorption, const Rgb& kt, const Body& body) {
         const std::size_t place = left_.value_or(volumes_.size());
