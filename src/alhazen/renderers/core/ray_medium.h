@@ -11,7 +11,7 @@ namespace alhazen {
 /// The medium in which a ray starts.
 struct RayMedium {
     bool inside = false;       ///< a transparent solid, or behind the front of an open surface
-    bool hidden = false;       ///< shadow rays do not see that solid
+    bool hidden = false;       ///< shadow rays do not start in it: it has no inside, or is unseen
     Rgb absorption;            ///< of it
     std::uint32_t medium = 0;  ///< of ExactOptics if used, else of TintedMedia
 };

@@ -120,6 +120,7 @@ RayMedium medium_behind(const ShadingPoint& point, bool closed, TintedMedia* med
         behind.joined ? behind.medium : tinted_medium_behind(point, closed, *media, around.medium);
     // An open surface of Whitted's materials has no inside.
     const bool has_inside = point.surface.media.known || closed || material.physical;
+    result.hidden = result.inside && !has_inside;
     // The absorption of a body around, if the ray is in no other.
     const bool in_body = result.medium != TintedMedia::kOutside;
     if (in_body && !(result.inside && has_inside) && !media->absorption(result.medium).is_black()) {

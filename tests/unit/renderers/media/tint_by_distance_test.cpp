@@ -356,6 +356,21 @@ TEST(TintByDistance, LightInAnOverlapHasTheTintOfTheBodyThatItLeavesFirst) {
     }
 }
 
+/// The eye is below a pane over a floor, or above it.
+TEST(TintByDistance, LightDoesNotDependOnWhetherTheEyeLooksThroughAPane) {
+    for (const double height : {0.5, 3.0}) {
+        expect_color(
+            [height](SceneMaker& m) {
+                m.description().cameras[0].camera =
+                    OrthographicCamera{{0, 0, height}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+                add_wall(m, 0, matt({1, 1, 1}));
+                add_wall(m, 1, tinted(0.3));
+                m.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+            },
+            {0.3, 1, 0.15});
+    }
+}
+
 TEST(TintByDistance, ShadowsAloneMayBeTintedByDistance) {
     for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
         const Rgb found = color_of(renderer, [](SceneMaker& m) {
