@@ -27,8 +27,9 @@ struct RayMedium {
 [[nodiscard]] inline bool bounds_media(const ShadingPoint& point) {
     const BehindSurface& behind = point.behind;
     if (point.material->thin && !behind.joined) return false;
-    // An opaque body has no inside.
-    return behind.known ? !behind.inside || !behind.kt.is_black() : !point.medium.is_black();
+    // Where a body is opaque it is not entered.
+    if (behind.known) return !behind.inside || !behind.kt.is_black();
+    return !point.entering || !point.medium.is_black();
 }
 
 }  // namespace alhazen

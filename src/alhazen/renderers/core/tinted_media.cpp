@@ -98,7 +98,11 @@ std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, Tinte
                    : around;
     }
     if (!closed) return around;
-    if (!point.entering) return media.leave(body, around);
+    if (!point.entering) {
+        // Where a body is opaque it is left, but only if it was entered elsewhere.
+        const bool leaves = !point.medium.is_black() || media.is_in(body, around);
+        return leaves ? media.leave(body, around) : around;
+    }
     const MaterialSample& material = *point.material;
     const bool physical = surface.volume ? point.medium_is_physical : material.physical;
     const Rgb& kt = surface.volume ? point.medium : material.transmissive;

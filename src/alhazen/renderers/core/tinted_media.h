@@ -135,6 +135,12 @@ class TintedMedia {
         media_.push_back({kt, absorption, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
+    [[nodiscard]] bool is_in(const Body& body, std::uint32_t medium) const {
+        while (medium != kOutside && media_[medium].body.part != body.part) {
+            medium = media_[medium].around;
+        }
+        return medium != kOutside;
+    }
     /// `medium` without the body, as CrossedVolumes::leave. Volumes inside the body are kept.
     [[nodiscard]] std::uint32_t leave(const Body& body, std::uint32_t medium) {
         for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {

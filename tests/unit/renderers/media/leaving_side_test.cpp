@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "alhazen/renderers/core/renderer.h"
@@ -28,6 +29,7 @@ struct Block {
     Vec3 eye{0.1, 0.2, 5}, look{0, 0, -1};
     double index = 1.0;
     bool mirrors = false;
+    bool opaque_below = false;  ///< the face at z = -1 is matt
     int depth = 1;
     Loss loss = Loss::KtByDistance;
     std::function<void(SceneMaker&)> rest;  ///< of the scene
@@ -88,10 +90,21 @@ double light_of(const std::string& renderer, const Block& block, double passing)
     c.max_depth = block.depth;
     maker.description().cameras[0].camera = OrthographicCamera{
         block.eye, block.look, 1e-6 * cross(block.look, Vec3{0, 1, 0}), {0, 1e-6, 0}};
-    maker.add(maker.mesh(mesh_of(block)), maker.material(material_of(block, passing)));
+    const MaterialId glass = maker.material(material_of(block, passing));
+    TriangleMesh mesh = mesh_of(block);
+    if (block.opaque_below) {
+        Material opaque = testing::matt({1, 1, 1});
+        opaque.index.value = 1.0;
+        const MaterialId below = maker.material(opaque);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const MaterialId m = mesh.normals[i] == block.down ? below : glass;
+            mesh.vertex_materials.push_back(static_cast<std::uint32_t>(m));
+        }
+    }
+    maker.add(maker.mesh(std::move(mesh)), glass);
     block.rest(maker);
     const Scene scene = maker.compile();
-    if (block.loss == Loss::KtByDistance) EXPECT_TRUE(scene.is_closed(0));
+    EXPECT_TRUE(block.loss != Loss::KtByDistance || scene.is_closed(0));
     const RenderJob job{
         .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
     Film film(1, 1, {0, 0, 1, 1});
@@ -140,6 +153,12 @@ TEST(LeavingSide, LightThatLeavesABodyIsNotTintedBehindIt) {
         block.rest = lamp_at(Vec3{0.1, 0.2, -1} + 9.0 * Vec3{-0.96, 0, -0.28});
         expect_way(renderers_of(loss), block, 2.0);
     }
+}
+
+TEST(LeavingSide, LightLeavesABodyWhereItIsOpaque) {
+    Block block{.down = {0.8, 0, -0.6}, .opaque_below = true};
+    block.rest = lamp_at(Vec3{0.1, 0.2, -1} + 9.0 * Vec3{-0.96, 0, -0.28});
+    expect_way(kAll, block, 2.0);
 }
 
 /// The face at z = 1 is seen from outside and lit from inside: from behind the block, and in it.
