@@ -37,8 +37,9 @@ void RayTreeRecorder::begin_rays(const GenerationPart& part, int depth) {
     }
 }
 
-void RayTreeRecorder::see_light(std::size_t number, const LightSample& light, double cosine) {
-    seen_.push_back({number, light, cosine});
+void RayTreeRecorder::see_light(std::size_t number, const LightSample& light, double cosine,
+                                const Path& path) {
+    seen_.push_back({number, light, cosine, &path});
 }
 
 void RayTreeRecorder::meet(const ShadingPoint& point, double t, const Path& path, int depth,
@@ -71,7 +72,7 @@ void RayTreeRecorder::meet(const ShadingPoint& point, double t, const Path& path
     if (met.filtered) node.filter = met.filter;
     if (met.lit) {
         set_ambient(point, node);
-        for (const SeenLight& seen : seen_) node.lights.push_back(term_of(seen, point, path));
+        for (const SeenLight& seen : seen_) node.lights.push_back(term_of(seen, point));
         set_reasons(point, path, depth, met, node);
     }
     count_rays(seen_.size());
@@ -93,8 +94,7 @@ void RayTreeRecorder::set_ambient(const ShadingPoint& point, SurfaceNode& node) 
     node.ambient = ambient_;
 }
 
-LightTerm RayTreeRecorder::term_of(const SeenLight& seen, const ShadingPoint& point,
-                                   const Path& path) {
+LightTerm RayTreeRecorder::term_of(const SeenLight& seen, const ShadingPoint& point) {
     LightTerm term;
     term.light = seen.number;
     term.cosine = seen.cosine;
@@ -108,7 +108,7 @@ LightTerm RayTreeRecorder::term_of(const SeenLight& seen, const ShadingPoint& po
     LightSample white = seen.light;
     white.intensity = {1, 1, 1};
     term.through = Rgb{};
-    shadows_.add(point.surface, white, {1, 1, 1}, path, term.through);
+    shadows_.add(point.surface, white, {1, 1, 1}, *seen.path, term.through);
     shadows_.finish();
     if (term.cast) list_crossings(term);
     return term;

@@ -25,7 +25,7 @@ class RayTreeRecorder : public NoRandomness {
     void use(ExactOptics& optics) { shadows_.use(optics); }
     void use(const TintedMedia& media) { shadows_.use(media); }
     void begin_rays(const GenerationPart& part, int depth);
-    void see_light(std::size_t number, const LightSample& light, double cosine);
+    void see_light(std::size_t number, const LightSample& light, double cosine, const Path& path);
     void meet(const ShadingPoint& point, double t, const Path& path, int depth,
               const MetSurface& met);
     void miss(std::uint32_t ray, const Rgb& left, int depth);
@@ -55,12 +55,12 @@ class RayTreeRecorder : public NoRandomness {
         std::size_t number;
         LightSample light;
         double cosine;
+        const Path* path;  ///< of its shadow ray
     };
 
     Level& level(int depth);
     void count_rays(std::size_t more);
-    [[nodiscard]] LightTerm term_of(const SeenLight& seen, const ShadingPoint& point,
-                                    const Path& path);
+    [[nodiscard]] LightTerm term_of(const SeenLight& seen, const ShadingPoint& point);
     void list_crossings(LightTerm& term) const;
     void set_ambient(const ShadingPoint& point, SurfaceNode& node);
     void set_reasons(const ShadingPoint& point, const Path& path, int depth, const MetSurface& met,

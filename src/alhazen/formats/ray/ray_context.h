@@ -2,6 +2,7 @@
 /// State that the functions of the .ray importer share while they read a file.
 
 #include <filesystem>
+#include <optional>
 
 #include "alhazen/formats/core/importer.h"
 #include "alhazen/formats/ray/ray_family.h"
@@ -11,8 +12,10 @@ namespace alhazen {
 /// The camera of the programs, which each camera block changes.
 struct RayCamera {
     Vec3 eye;
-    Mat3 axes;          ///< right, up and backward; lengths and angles as in the file
-    double height = 1;  ///< of the image at distance 1: 53.13 degrees
+    Mat3 axes;                    ///< right, up and backward; lengths and angles as in the file
+    std::optional<Vec3> look_at;  ///< if the axes are towards it
+    Vec3 up{0, 1, 0};             ///< then: `updir`
+    double height = 1;            ///< of the image at distance 1: 53.13 degrees
     double aspect = 1;
 };
 

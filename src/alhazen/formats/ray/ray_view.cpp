@@ -31,25 +31,23 @@ Mat3 rotation(double x, double y, double z, double w) {
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-/// The axes of a camera at `eye` that looks at the point `look_at`; up by default along y.
-Mat3 axes_towards(BlockReader& reader, const Vec3& eye, const Vec3& point, const Mat3& before) {
-    Vec3 up{0, 1, 0};
-    reader.read("updir", up);
-    const Vec3 view = point - eye, right = cross(view, up);
-    if (!has_direction(reader, "updir", up)) return before;
+/// The axes of a camera that looks at its point `look_at`.
+Mat3 axes_towards(BlockReader& reader, const RayCamera& camera) {
+    const Vec3 view = *camera.look_at - camera.eye, right = cross(view, camera.up);
+    if (!has_direction(reader, "updir", camera.up)) return camera.axes;
     if (!(length_squared(right) > 0)) {
-        reader.error(*reader.find("look_at"),
+        reader.error(reader.find("look_at").value_or(reader.block()),
                      "look_at must not lie at the position, nor along updir from it");
-        return before;
+        return camera.axes;
     }
     const Vec3 x = normalize(right), z = normalize(-view);
     return {x, cross(z, x), z};
 }
 
 /// The camera axes. As in the original programs, lengths and angles given in the file are kept;
-/// `before` holds where the file says nothing.
-Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool normalise) {
-    Mat3 axes = before;
+/// those of `camera` hold where the file says nothing.
+Mat3 read_axes(BlockReader& reader, RayCamera& camera, bool normalise) {
+    Mat3& axes = camera.axes;
     double q[4];
     // The first is the spelling of the reference.
     const auto turn = reader.find("quaternian", "quaternion");
@@ -57,6 +55,7 @@ Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool no
         const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
         if (norm > 0) {
             axes = rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
+            camera.look_at.reset();
         } else {
             reader.error(*turn, "the quaternion must not be zero");
         }
@@ -65,9 +64,18 @@ Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool no
         reader.values().diagnostics.warning(
             turn->location(), "camera: a quaternion has no effect beside viewdir or look_at");
     }
+    if (reader.has("viewdir")) {
+        if (const auto point = reader.find("look_at")) {
+            reader.values().diagnostics.warning(
+                point->location(), "camera: look_at has no effect beside viewdir and updir");
+        }
+        camera.look_at.reset();
+    }
     Vec3 point, view, up;
-    if (!reader.has("viewdir") && reader.read("look_at", point)) {
-        return axes_towards(reader, eye, point, axes);
+    if (!reader.has("viewdir") && reader.read("look_at", point)) camera.look_at = point;
+    if (camera.look_at) {
+        reader.read("updir", camera.up);
+        return axes_towards(reader, camera);
     }
     const bool has_view = reader.read("viewdir", view), has_up = reader.read("updir", up);
     if (reader.has("viewdir") != reader.has("updir")) {
@@ -101,7 +109,7 @@ void read_camera(TextNode entry, RayContext& context) {
     BlockReader reader = reader_of(entry, context);
     RayCamera& own = context.camera;
     reader.read("position", own.eye);
-    own.axes = read_axes(reader, own.eye, own.axes, context.family.dictionary);
+    own.axes = read_axes(reader, own, context.family.dictionary);
     double aspect = 1, fov_deg = 0;
     if (reader.read("aspectratio", aspect)) {
         if (aspect > 0) {

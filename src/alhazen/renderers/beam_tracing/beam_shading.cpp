@@ -87,12 +87,14 @@ void BeamShading::pass(RayKind kind, double distance, Way& way) {
     const bool tinted = material.physical || conventions_.refraction_tint ==
                                                  ShadingConventions::RefractionTint::PerEvent;
     if (tinted) way.share = way.share * point_.passing;
-    if (material.thin) return;
-    way.inside = point_.entering;
-    way.absorption = point_.entering ? material.absorption : Rgb{};
-    const bool closed = is_closed(point_.surface);
-    way.medium = tinted_medium_behind(point_, closed, tinted_, way.medium);
-    keep_absorption(point_, closed, tinted_, way.medium, way.inside, way.absorption);
+    // Beams pass facets: no ray of them is turned by another normal.
+    if (!bounds_media(point_)) return;
+    static_cast<RayMedium&>(way) = medium_behind(point_, is_closed(point_.surface), &tinted_, way);
+}
+
+RayMedium BeamShading::medium_along(const Vec3& direction) {
+    if (!goes_behind(point_, direction) || !bounds_media(point_)) return way_;
+    return medium_behind(point_, is_closed(point_.surface), &tinted_, way_);
 }
 
 void BeamShading::follow(std::uint32_t facet, RayKind kind) {
@@ -173,12 +175,14 @@ Rgb BeamShading::light(const BeamLight& light) {
     const double cosine = dot(point_.normal, l.to_light);
     if (!(cosine > 0.0)) return {};
     Rgb color = l.intensity * reflected_fraction(conventions_, point_, l, cosine);
-    const bool in_air = !way_.inside && way_.medium == TintedMedia::kOutside;
-    if (!light.part.through.empty() || !in_air) color = color * tint(light.part.through, l);
+    const RayMedium medium = medium_along(l.to_light);
+    const bool in_air = !medium.inside && medium.medium == TintedMedia::kOutside;
+    if (!light.part.through.empty() || !in_air) color = color * tint(light.part.through, l, medium);
     return way_.share * filter_ * color;
 }
 
-Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample& light) {
+Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample& light,
+                      const RayMedium& medium) {
     const Ray ray = onward_ray(conventions_, point_.surface, light.to_light, light.distance);
     std::vector<std::pair<double, std::uint32_t>> crossings;
     for (const std::uint32_t facet : through) {
@@ -187,7 +191,7 @@ Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample&
     }
     std::sort(crossings.begin(), crossings.end());
     Rgb result{1, 1, 1};
-    start_inside(conventions_, tinted_, way_.medium, way_.inside, way_.absorption, volumes_);
+    start_inside(conventions_, tinted_, medium, volumes_);
     double last = 0.0;
     for (const auto& [t, facet] : crossings) {
         set_surface_of(facet, ray, t, between_);

@@ -35,10 +35,8 @@ class BeamShading {
 
   private:
     /// The state of a ray along its path from the eye.
-    struct Way {
-        bool inside = false;
-        Rgb share{1, 1, 1}, absorption;
-        std::uint32_t medium = 0;  ///< of TintedMedia
+    struct Way : RayMedium {
+        Rgb share{1, 1, 1};
     };
     void set_surface_of(std::uint32_t facet, const Ray& ray, double t, Surface& surface);
     /// Sets the point where a ray of a beam meets a facet. Returns the distance from `from`.
@@ -51,7 +49,10 @@ class BeamShading {
         const std::vector<std::uint8_t>& closed = geometry_.closed_parts;
         return surface.part < closed.size() && closed[surface.part] != 0;
     }
-    [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
+    /// The medium of a ray that leaves the point along the direction.
+    [[nodiscard]] RayMedium medium_along(const Vec3& direction);
+    [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light,
+                           const RayMedium& medium);
 
     const RenderJob& job_;
     double filter_width_ = 1.0;  ///< in widths of the job's cone

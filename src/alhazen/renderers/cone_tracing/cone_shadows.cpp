@@ -60,10 +60,9 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
 Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size_t number,
                           const LightSample& light, double light_radius) {
     if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
-    const bool towards = dot(point.geometric, light.to_light) > 0.0;
     const bool closed = geometry_.sources[seen.piece.source].closed;
     // True if the shadow cone starts inside the solid.
-    const bool within = closed && seen.piece.front != towards;
+    const bool within = closed && seen.piece.front == goes_behind(point, light.to_light);
     if (within && seen.piece.front && point.material->transmissive.is_black() &&
         !geometry_.sources[seen.piece.source].has_alpha) {
         return {};
@@ -73,6 +72,7 @@ Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size
     const FootprintDiscs discs =
         discs_of_footprint(point.surface.point, point.geometric, seen.ray.direction, seen.radius,
                            light.to_light, most);
+    const RayMedium medium = medium_along(seen, point, light.to_light);
     const bool bounded = std::isfinite(light.distance);
     const Vec3 place = point.surface.point + (bounded ? light.distance : 0.0) * light.to_light;
     Rgb sum;
@@ -89,19 +89,19 @@ Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size
         start.kind = RayKind::Shadow;
         start.range.z_max = distance;
         if (closed) start.set_inside(seen.piece.source, within);
-        sum += disc.weight *
-               let_through(cone, start, {number, k, discs.count, disc.weight}, &seen.path);
+        sum +=
+            disc.weight * let_through(cone, start, {number, k, discs.count, disc.weight}, medium);
     }
     return sum;
 }
 
 Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start, const ConeToLight& to,
-                            const ConePath* from) {
+                            const RayMedium& medium) {
     ++counters_[RayKind::Shadow].cast;
     ConeRay part = cone;
     Rgb left;
     light_inside_.reset();
-    begin_way(cone, start, from);
+    begin_way(cone, start, medium);
     for (int k = 0; !find_blocked(part, start, left) && k < kMostNarrowings; ++k) {
         part = narrowed(part);
     }
@@ -111,11 +111,9 @@ Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start, const C
 }
 
 /// Sets the volumes around the start of a shadow cone, and where it leaves the innermost one.
-void ConeTracer::begin_way(const ConeRay& cone, const ConeStart& start, const ConePath* from) {
+void ConeTracer::begin_way(const ConeRay& cone, const ConeStart& start, const RayMedium& medium) {
     way_ = Way::Clear;
-    volumes_.clear();
-    if (from == nullptr) return;
-    start_inside(conventions_, tinted_, from->medium, from->inside, from->absorption, volumes_);
+    start_inside(conventions_, tinted_, medium, volumes_);
     const bool hidden =
         !start.inside.empty() &&
         (geometry_.sources[start.inside.back()].visible_to & mask_of(RayKind::Shadow)) == 0;

@@ -307,15 +307,18 @@ double ConeTracer::least_contribution() const {
     return std::max(conventions_.min_contribution, kLeastConeShare);
 }
 
-ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,
-                            const ConeRay& cone) const {
+RayMedium ConeTracer::medium_along(const Seen& seen, const ShadingPoint& point,
+                                   const Vec3& direction) {
+    if (!goes_behind(point, direction) || !bounds_media(point)) return seen.path;
+    return medium_behind(point, scene_.is_closed(point.surface.part), &tinted_, seen.path);
+}
+
+ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point, const ConeRay& cone) {
     ConePath path;
     path.start.source = seen.piece.source;
     path.start.part = seen.piece.part;
     path.start.inside = seen.path.start.inside;
-    path.inside = seen.path.inside;
-    path.absorption = seen.path.absorption;
-    path.medium = seen.path.medium;
+    static_cast<RayMedium&>(path) = medium_along(seen, point, cone.axis);
     // The disc at the start is oblique to the surface: its lower half lies below.
     const double cosine = std::max(std::abs(dot(cone.axis, point.geometric)), 0.05);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
@@ -382,8 +385,9 @@ Rgb ConeTracer::reflected(const Seen& seen, const ShadingPoint& point) {
     path.contribution = contribution;
     // Where a cone may pass the front of a solid it reaches the back from inside.
     const ConeSource& source = geometry_.sources[seen.piece.source];
-    if (source.closed && source.has_alpha) {
-        path.start.set_inside(seen.piece.source, !seen.piece.front);
+    const bool behind = goes_behind(point, direction);
+    if (source.closed && (source.has_alpha || (behind && bounds_media(point)))) {
+        path.start.set_inside(seen.piece.source, seen.piece.front == behind);
     }
     return kr * trace(cone, path, seen.depth + 1);
 }
@@ -422,27 +426,15 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
         cone.spread = beyond.spread;
     }
     cone.spread = widened_spread(cone.spread, lobe_half_angle(material.roughness));
+    const std::size_t media = tinted_.mark();
     ConePath path = onward(seen, point, cone);
     path.start.kind = RayKind::Refraction;
     path.contribution = contribution;
     const std::uint32_t source = seen.piece.source;
-    const std::size_t media = tinted_.mark();
-    const BehindSurface& behind = point.behind;
-    if (!material.thin) {
-        path.inside = behind.known ? behind.inside : point.entering;
-        path.absorption = behind.known     ? behind.absorption
-                          : point.entering ? material.absorption
-                                           : Rgb{};
-        const bool closed = scene_.is_closed(point.surface.part);
-        path.medium = behind.joined
-                          ? behind.medium
-                          : tinted_medium_behind(point, closed, tinted_, seen.path.medium);
-        keep_absorption(point, closed, tinted_, path.medium, path.inside, path.absorption);
-    }
-    if (behind.joined) {
+    if (point.behind.joined) {
         path.start.inside = solids_around(geometry_, leaving_ray(point.surface, cone.axis).origin);
     } else if (geometry_.sources[source].closed) {
-        path.start.set_inside(source, seen.piece.front);
+        path.start.set_inside(source, seen.piece.front == goes_behind(point, cone.axis));
     }
     const bool tinted = material.physical || conventions_.refraction_tint ==
                                                  ShadingConventions::RefractionTint::PerEvent;

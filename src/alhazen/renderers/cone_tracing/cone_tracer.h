@@ -23,12 +23,9 @@
 namespace alhazen {
 
 /// The history of a cone.
-struct ConePath {
+struct ConePath : RayMedium {
     ConeStart start;
-    bool inside = false;        ///< starts inside a transparent object
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
-    Rgb absorption;             ///< absorption of the medium it starts in
-    std::uint32_t medium = 0;   ///< of TintedMedia
 };
 
 /// Identifies one of the cones to a light: a large piece has several.
@@ -72,10 +69,10 @@ class ConeTracer {
     /// `geometry` receives the geometry of the piece with the largest share; may be null.
     [[nodiscard]] Rgb trace(const ConeRay& cone, const ConePath& path, int depth,
                             PixelGeometry* geometry = nullptr);
-    /// Transmittance of a cone towards a light, which lies beyond `start.range.z_max`. `from`: the
-    /// path of the cone that met the surface; null: the start is in air.
+    /// Transmittance of a cone towards a light, which lies beyond `start.range.z_max`, that starts
+    /// in the medium.
     [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start,
-                                  const ConeToLight& to = {}, const ConePath* from = nullptr);
+                                  const ConeToLight& to = {}, const RayMedium& medium = {});
     /// Sets an observer, or null; it must outlive the calls of `trace`.
     void set_watcher(ConeWatcher* watcher) { watcher_ = watcher; }
 
@@ -133,7 +130,7 @@ class ConeTracer {
                                 const LightSample& light, double light_radius);
     [[nodiscard]] Rgb reflected(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmitted(const Seen& seen, const ShadingPoint& point);
-    void begin_way(const ConeRay& cone, const ConeStart& start, const ConePath* from);
+    void begin_way(const ConeRay& cone, const ConeStart& start, const RayMedium& medium);
     /// Sets what a piece lets through. False if it is not met.
     [[nodiscard]] bool cross_piece(const ConePiece& piece, const ConeRay& cone,
                                    const ConeStart& start, Crossed& crossed, PieceInShadow& met);
@@ -149,8 +146,10 @@ class ConeTracer {
     [[nodiscard]] bool light_is_inside(std::uint32_t number, const ConeRay& cone,
                                        const ConeStart& start);
     /// The history of a cone that leaves the piece; the caller sets its kind and contribution.
-    [[nodiscard]] ConePath onward(const Seen& seen, const ShadingPoint& point,
-                                  const ConeRay& cone) const;
+    [[nodiscard]] ConePath onward(const Seen& seen, const ShadingPoint& point, const ConeRay& cone);
+    /// The medium of a cone that leaves the piece along the direction.
+    [[nodiscard]] RayMedium medium_along(const Seen& seen, const ShadingPoint& point,
+                                         const Vec3& direction);
     [[nodiscard]] bool refracts(const ShadingPoint& point, const Ray& ray, double& eta,
                                 Vec3& direction) const;
     [[nodiscard]] SectionCurvatures curvatures(const Seen& seen, const ShadingPoint& point) const;

@@ -64,25 +64,25 @@ Crossing cross(const ShadingConventions& conventions, const Surface& surface,
 }
 
 void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
-                  std::uint32_t medium, bool inside, const Rgb& absorption,
-                  CrossedVolumes& volumes) {
+                  const RayMedium& medium, CrossedVolumes& volumes) {
     volumes.clear();
-    const bool tints = medium != TintedMedia::kOutside &&
+    const bool inside = medium.inside && !medium.hidden;
+    const bool tints = medium.medium != TintedMedia::kOutside &&
                        conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
     if (tints) {
         InlineVector<std::uint32_t, 8> outward;  // of more than eight bodies the innermost
-        for (std::uint32_t k = medium; k != TintedMedia::kOutside && !outward.full();
+        for (std::uint32_t k = medium.medium; k != TintedMedia::kOutside && !outward.full();
              k = tinted.around(k)) {
             outward.push_back(k);
         }
         for (std::size_t k = outward.size(); k-- > 0;) {
             const std::uint32_t m = outward[k];
             if (tinted.is_hidden(m)) continue;
-            volumes.enter(inside && k == 0 ? absorption : tinted.absorption(m), tinted.kt(m),
+            volumes.enter(inside && k == 0 ? medium.absorption : tinted.absorption(m), tinted.kt(m),
                           tinted.body(m));
         }
     } else if (inside) {
-        volumes.enter(absorption);
+        volumes.enter(medium.absorption);
     }
 }
 
@@ -98,22 +98,40 @@ std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, Tinte
                    : around;
     }
     if (!closed) return around;
-    if (!point.entering) return media.leave(body, around);
+    if (!point.entering) {
+        // Where a body is opaque it is left, but only if it was entered elsewhere.
+        const bool leaves = !point.medium.is_black() || media.is_in(body, around);
+        return leaves ? media.leave(body, around) : around;
+    }
     const MaterialSample& material = *point.material;
     const bool physical = surface.volume ? point.medium_is_physical : material.physical;
     const Rgb& kt = surface.volume ? point.medium : material.transmissive;
     return media.enter(physical ? Rgb{1, 1, 1} : kt, material.absorption, body, around);
 }
 
-void keep_absorption(const ShadingPoint& point, bool closed, const TintedMedia& media,
-                     std::uint32_t medium, bool& inside, Rgb& absorption) {
-    if (medium == TintedMedia::kOutside || media.absorption(medium).is_black()) return;
-    const bool known = point.surface.media.known;
-    const bool enters = known ? point.behind.inside : point.entering;
+RayMedium medium_behind(const ShadingPoint& point, bool closed, TintedMedia* media,
+                        const RayMedium& around) {
+    const MaterialSample& material = *point.material;
+    const BehindSurface& behind = point.behind;
+    RayMedium result = around;
+    result.hidden = false;
+    result.inside = behind.known ? behind.inside : point.entering;
+    result.absorption = behind.known     ? behind.absorption
+                        : point.entering ? material.absorption
+                                         : Rgb{};
+    if (media == nullptr) return result;
+    result.medium =
+        behind.joined ? behind.medium : tinted_medium_behind(point, closed, *media, around.medium);
     // An open surface of Whitted's materials has no inside.
-    if (enters && (known || closed || point.material->physical)) return;
-    inside = true;
-    absorption = media.absorption(medium);
+    const bool has_inside = point.surface.media.known || closed || material.physical;
+    result.hidden = result.inside && !has_inside;
+    // The absorption of a body around, if the ray is in no other.
+    const bool in_body = result.medium != TintedMedia::kOutside;
+    if (in_body && !(result.inside && has_inside) && !media->absorption(result.medium).is_black()) {
+        result.inside = true;
+        result.absorption = media->absorption(result.medium);
+    }
+    return result;
 }
 
 }  // namespace alhazen

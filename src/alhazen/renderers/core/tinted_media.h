@@ -14,6 +14,7 @@
 
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/ray_medium.h"
 
 namespace alhazen {
 
@@ -134,6 +135,12 @@ class TintedMedia {
         media_.push_back({kt, absorption, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
+    [[nodiscard]] bool is_in(const Body& body, std::uint32_t medium) const {
+        while (medium != kOutside && media_[medium].body.part != body.part) {
+            medium = media_[medium].around;
+        }
+        return medium != kOutside;
+    }
     /// `medium` without the body, as CrossedVolumes::leave. Volumes inside the body are kept.
     [[nodiscard]] std::uint32_t leave(const Body& body, std::uint32_t medium) {
         for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
@@ -180,18 +187,16 @@ struct Crossing {
 [[nodiscard]] Crossing cross(const ShadingConventions& conventions, const Surface& surface,
                              const MaterialSample& material, const MaterialSample& medium,
                              bool leaving, bool closed, double length, CrossedVolumes& volumes);
-/// Sets the volumes around a ray that starts in a medium of `tinted` and, `inside` a solid, of an
-/// absorption.
+/// Sets the volumes around a shadow ray that starts in `medium`, a number of `tinted`.
 void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
-                  std::uint32_t medium, bool inside, const Rgb& absorption,
-                  CrossedVolumes& volumes);
+                  const RayMedium& medium, CrossedVolumes& volumes);
 
 /// The medium in `media` of a ray that passes through the surface from the medium `around`.
 [[nodiscard]] std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed,
                                                  TintedMedia& media, std::uint32_t around);
-/// Sets `inside` and `absorption` of a ray that has passed through the surface into `medium` to
-/// those of a body around, if that absorbs and the ray is in no other.
-void keep_absorption(const ShadingPoint& point, bool closed, const TintedMedia& media,
-                     std::uint32_t medium, bool& inside, Rgb& absorption);
+/// The medium behind a surface that bounds media (bounds_media), of which `around` is before it.
+/// `closed`: it bounds a volume. `media`: numbers media; null: the number stays.
+[[nodiscard]] RayMedium medium_behind(const ShadingPoint& point, bool closed, TintedMedia* media,
+                                      const RayMedium& around);
 
 }  // namespace alhazen

@@ -19,20 +19,17 @@
 #include "alhazen/geometry/ray_cone.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/core/ray_medium.h"
 
 namespace alhazen {
 
 /// The history of a ray.
-struct Path {
+struct Path : RayMedium {
     RayKind kind = RayKind::Eye;
-    bool inside = false;        ///< it starts inside a transparent solid
-    bool hidden = false;        ///< shadow rays do not see that solid
     std::uint32_t sample = 0;   ///< of its batch of eye rays
     float time = 0;             ///< RayQuery::time
     float nm = 0;               ///< wavelength behind a dispersing surface; else 0
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
-    Rgb absorption;             ///< of the medium it starts in
-    std::uint32_t medium = 0;   ///< of ExactOptics if used, else of TintedMedia
     RayCone cone;
 };
 

@@ -160,8 +160,7 @@ const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     Rgb tint{1, 1, 1};
-    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside && !path.hidden,
-                 path.absorption, volumes_);
+    start_inside(scene_.conventions.shading, *tinted_, path, volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
     double met = -min_distance;  // the last surface that tints

@@ -33,8 +33,9 @@ class ShadowBatch {
     /// Media of `Path::medium` for all further rays, without exact optics.
     void use(const TintedMedia& media) { tinted_ = &media; }
     /// Adds transmittance * `light.intensity` * `fraction` to `sum`, now or in `finish`, in the
-    /// order of the calls. `path`: that of the ray that hit `surface`. `path` and `sum` must stay
-    /// valid until `finish`. `number`: of the light in the scene, for coherent rays.
+    /// order of the calls. `path`: that of the ray that hit `surface`, in the medium on the side of
+    /// the light. `path` and `sum` must stay valid until `finish`. `number`: of the light in the
+    /// scene, for coherent rays.
     void add(const LeavingRays& surface, const LightSample& light, const Rgb& fraction,
              const Path& path, Rgb& sum, std::size_t number = 0);
     /// Casts the gathered rays.

@@ -53,7 +53,7 @@ concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
     random.use(optics);
     random.use(tinted);
     random.begin_rays(part, depth);
-    random.see_light(std::size_t{}, light, t);
+    random.see_light(std::size_t{}, light, t, path);
     random.meet(point, t, path, depth, met);
     random.miss(ray, left, depth);
     random.gather(front, depth);
@@ -191,7 +191,10 @@ class RecursiveEstimator {
     }
 
     /// Adds the light of waiting shadow rays.
-    void finish_light() { direct_ ? direct_->finish() : shadows_.finish(); }
+    void finish_light() {
+        direct_ ? direct_->finish() : shadows_.finish();
+        paths_behind_.clear();
+    }
 
     /// Finds the next surface along each active ray; `first`: none has been found yet.
     void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
@@ -284,6 +287,7 @@ class RecursiveEstimator {
     /// rays, or by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
+        path_behind_ = nullptr;
         if (seen.depth == 0 && conventions_.inside_color && starts_inside(point, met)) {
             met.lit = false;
             met.own = *conventions_.inside_color;
@@ -328,16 +332,17 @@ class RecursiveEstimator {
                                    conventions_.clamp_attenuation, seen.path, seen.depth);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
-            if constexpr (TreeWatcher<Randomness>) random_.see_light(here, l, cosine);
+            const Path& path = path_along(seen, l.to_light);
+            if constexpr (TreeWatcher<Randomness>) random_.see_light(here, l, cosine, path);
             if (l.intensity.is_black()) continue;  // beyond the cone of a spot
             if (shadows_.casts_at_once()) {
-                const Rgb through = shadows_.arriving(from, l, seen.path);
+                const Rgb through = shadows_.arriving(from, l, path);
                 if (through.is_black()) continue;
                 sum += through * l.intensity * reflected_fraction(conventions_, point, l, cosine);
                 continue;
             }
-            shadows_.add(from, l, reflected_fraction(conventions_, point, l, cosine), seen.path,
-                         sum, here);
+            shadows_.add(from, l, reflected_fraction(conventions_, point, l, cosine), path, sum,
+                         here);
         }
     }
 
@@ -365,7 +370,8 @@ class RecursiveEstimator {
         random_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
         // Copied as a whole and then changed: a local path would be copied in pieces.
-        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), seen.path);
+        met.reflected = next.add(onward_ray(conventions_, point.surface, direction),
+                                 path_along(seen, direction));
         send_on(seen, RayKind::Reflection, contribution, next.last_path());
     }
 
@@ -376,35 +382,34 @@ class RecursiveEstimator {
         if (kt.is_black()) return;
         const Rgb contribution = seen.path.contribution * met.share * kt;
         if (contribution.max() < conventions_.min_contribution) return;
-        Path onward = seen.path;
-        send_on(seen, RayKind::Refraction, contribution, onward);
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
-        if (!material.thin || (optics_ && point.behind.joined)) {
-            const BehindSurface& behind = point.behind;
-            onward.inside = behind.known ? behind.inside : point.entering;
-            onward.absorption = behind.known     ? behind.absorption
-                                : point.entering ? material.absorption
-                                                 : Rgb{};
-            if (optics_) {
-                onward.medium = behind.medium;
-            } else if (tracks_media()) {
-                const bool closed = scene_.is_closed(point.surface.part);
-                onward.medium =
-                    behind.joined ? behind.medium
-                                  : tinted_medium_behind(point, closed, tinted_, seen.path.medium);
-                keep_absorption(point, closed, tinted_, onward.medium, onward.inside,
-                                onward.absorption);
-            }
-            if (scene_.has_masks) hide_from_shadows(seen, onward);
-        }
-        if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
-            split(seen, onward, met, front);
+        if (!material.thin && seen.path.nm == 0.0f && disperses(seen)) {
+            split(seen, contribution, met, front);
         } else {
-            met.refracted = send_refracted(seen, onward, front.next);
+            met.refracted = send_refracted(seen, contribution, seen.path.nm, front.next);
         }
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
+    }
+
+    /// The path of the ray that met the surface, in the medium of a ray that leaves the surface
+    /// along the direction. Valid until `finish_light`.
+    [[nodiscard]] const Path& path_along(const Seen& seen, const Vec3& direction) {
+        if (!goes_behind(seen.point, direction) || !bounds_media(seen.point)) return seen.path;
+        if (path_behind_ == nullptr) {
+            path_behind_ = &paths_behind_.emplace_back(seen.path);
+            set_medium_behind(seen, *path_behind_);
+        }
+        return *path_behind_;
+    }
+    void set_medium_behind(const Seen& seen, Path& onward) {
+        const ShadingPoint& point = seen.point;
+        static_cast<RayMedium&>(onward) =
+            medium_behind(point, scene_.is_closed(point.surface.part),
+                          tracks_media() ? &tinted_ : nullptr, seen.path);
+        if (optics_) onward.medium = point.behind.medium;
+        if (scene_.has_masks) hide_from_shadows(seen, onward);
     }
 
     /// Marks the volume that a ray enters if shadow rays do not see it.
@@ -412,33 +417,37 @@ class RecursiveEstimator {
         const ShadingPoint& point = seen.point;
         const bool enters = point.surface.media.known ? point.behind.inside : point.entering;
         const RayMask seen_by = mask_at(*scene_.aggregate, visible_.reported_hit());
-        onward.hidden = enters && (seen_by & mask_of(RayKind::Shadow)) == 0;
-        if (!onward.hidden || onward.medium == seen.path.medium) return;
+        if (!enters || (seen_by & mask_of(RayKind::Shadow)) != 0) return;
+        onward.hidden = true;
+        if (onward.medium == seen.path.medium) return;
         optics_ ? optics_->hide(onward.medium, point.surface) : tinted_.hide(onward.medium);
     }
 
     /// Adds a refracted ray for each wavelength.
-    void split(const Seen& seen, const Path& onward, MetSurface& met, Wavefront& front) {
+    void split(const Seen& seen, const Rgb& contribution, MetSurface& met, Wavefront& front) {
         met.split = true;
         met.refracted = static_cast<std::uint32_t>(front.split.size());
         for (const WaveSplit::Wave& wave : split_->waves()) {
-            Path path = onward;
-            path.nm = static_cast<float>(wave.nm);
-            front.split.push_back(send_refracted(seen, path, front.next));
+            const float nm = static_cast<float>(wave.nm);
+            front.split.push_back(send_refracted(seen, contribution, nm, front.next));
         }
     }
 
     /// Adds a refracted ray and returns its number; kNotSent for total internal reflection.
-    std::uint32_t send_refracted(const Seen& seen, const Path& onward, Generation& next) {
+    std::uint32_t send_refracted(const Seen& seen, const Rgb& contribution, float nm,
+                                 Generation& next) {
         const ShadingPoint& point = seen.point;
         Vec3 direction = seen.ray.direction;
-        if (!point.material->thin &&
-            !refracted(point, seen.ray, eta_of(seen, onward.nm), direction)) {
+        if (!point.material->thin && !refracted(point, seen.ray, eta_of(seen, nm), direction)) {
             ++counters_.total_internal;
             return MetSurface::kNotSent;
         }
         random_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        return next.add(onward_ray(conventions_, point.surface, direction), onward);
+        const std::uint32_t number = next.add(onward_ray(conventions_, point.surface, direction),
+                                              path_along(seen, direction));
+        send_on(seen, RayKind::Refraction, contribution, next.last_path());
+        next.last_path().nm = nm;
+        return number;
     }
 
     /// Refractive index on the side of the ray over that behind, at wavelength `nm`; 0: without
@@ -487,6 +496,8 @@ class RecursiveEstimator {
     std::optional<TouchingFaces> touching_;  ///< if it has none, and not all is opaque
     TintedMedia tinted_;                     ///< if it has none
     std::vector<Path> eye_paths_;            ///< [sample] of eye rays
+    std::deque<Path> paths_behind_;          ///< of surfaces whose light waits
+    Path* path_behind_ = nullptr;            ///< of the surface that is shaded; null: not needed
     std::vector<std::uint32_t> gone_on_;     ///< eye rays with another cone than at their start
     std::deque<Wavefront> fronts_;           ///< [depth]; references stay valid while it grows
 };

@@ -111,6 +111,35 @@ TEST(RayImporter, LooksAtAPoint) {
     }
 }
 
+TEST(RayImporter, APointToLookAtHasNoEffectBesideAViewDirection) {
+    const Imported i = import_ray(
+        "camera { position = (0,0,3); viewdir = (0,1,0); updir = (0,0,1); look_at = (5,0,0); }");
+    EXPECT_TRUE(i.says("warning: camera: look_at has no effect beside viewdir and updir"));
+    EXPECT_FALSE(i.says("unknown key")) << i.messages();
+    expect_near(std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).look, {0, 1, 0});
+}
+
+TEST(RayImporter, ACameraKeepsLookingAtItsPointWhereverALaterBlockMovesIt) {
+    const auto look = [](const std::string& blocks) {
+        const Imported i = import_ray(blocks);
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera);
+    };
+    const PerspectiveCamera moved =
+        look("camera { look_at = (3,0,4); updir = (0,0,2); } camera { position = (3,-5,4); }");
+    expect_near(moved.look, {0, 1, 0});
+    expect_near(moved.up, {0, 0, 1});
+    const PerspectiveCamera tilted =
+        look("camera { look_at = (3,0,4); position = (3,0,9); } camera { updir = (1,0,0); }");
+    expect_near(tilted.look, {0, 0, -1});
+    expect_near(tilted.up, {1, 0, 0});
+    // A direction in a later block replaces the point.
+    const PerspectiveCamera turned = look(
+        "camera { look_at = (3,0,4); position = (0,0,9); }"
+        "camera { viewdir = (0,1,0); updir = (0,0,1); } camera { position = (5,5,5); }");
+    expect_near(turned.look, {0, 1, 0});
+}
+
 TEST(RayImporter, CameraBlocksChangeOneCamera) {
     const Imported i = import_ray(
         "camera { position = (1,2,3); viewdir = (1,0,0); updir = (0,1,0); fov = 90 }"

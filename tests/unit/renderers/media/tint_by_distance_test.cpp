@@ -337,6 +337,61 @@ TEST(TintByDistance, LightPassesBodiesThatOverlapByTheOneLeftFirst) {
     }
 }
 
+/// A piece in the overlap of two bodies, whose light comes from above; the eye looks down through
+/// both, or from the side through one.
+TEST(TintByDistance, LightInAnOverlapHasTheTintOfTheBodyThatItLeavesFirst) {
+    const auto fill = [](bool low_first, bool light) {
+        return [=](SceneMaker& m) {
+            BoxShape low, high;
+            low.lo = {-2, -2, 0};
+            low.hi = {2, 2, 2};
+            high.lo = {-1, -1, 1};
+            high.hi = {1, 1, 3};
+            if (low_first) m.add(low, m.material(tinted(0.5)));
+            m.add(high, m.material(tinted(0.8)));
+            if (!low_first) m.add(low, m.material(tinted(0.5)));
+            m.add(rectangle({-0.3, -0.3, 1.5}, {0.6, 0, 0}, {0, 0.6, 0}),
+                  m.material(light ? matt({1, 1, 1}) : shining({1, 1, 1})));
+            m.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+        };
+    };
+    const auto from_the_side = [](const Fill& rest) {
+        return [rest](SceneMaker& m) {
+            rest(m);
+            m.description().cameras[0].camera = OrthographicCamera{
+                {-3, 0, 2.1}, normalize(Vec3{1, 0, -0.2}), {0, 1e-6, 0}, {1e-6, 0, 0}};
+        };
+    };
+    for (const bool low_first : {false, true}) {
+        for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
+            for (const bool side : {false, true}) {
+                const auto seen = [&](bool light) {
+                    const Fill scene = fill(low_first, light);
+                    return color_of(renderer, side ? from_the_side(scene) : scene);
+                };
+                const Rgb lit = seen(true), glowing = seen(false);
+                EXPECT_NEAR(lit.r / glowing.r, std::pow(0.5, 0.5) * 0.8, 1e-6)
+                    << renderer << (side ? " from the side" : "");
+            }
+        }
+    }
+}
+
+/// The eye is below a pane over a floor, or above it.
+TEST(TintByDistance, LightDoesNotDependOnWhetherTheEyeLooksThroughAPane) {
+    for (const double height : {0.5, 3.0}) {
+        expect_color(
+            [height](SceneMaker& m) {
+                m.description().cameras[0].camera =
+                    OrthographicCamera{{0, 0, height}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+                add_wall(m, 0, matt({1, 1, 1}));
+                add_wall(m, 1, tinted(0.3));
+                m.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+            },
+            {0.3, 1, 0.15});
+    }
+}
+
 TEST(TintByDistance, ShadowsAloneMayBeTintedByDistance) {
     for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
         const Rgb found = color_of(renderer, [](SceneMaker& m) {
