@@ -25,7 +25,7 @@ namespace {
 /// Limit of the depth of the tree.
 constexpr int kMostDepth = 64;
 /// Limit of the recorded steps of the accelerator.
-constexpr std::size_t kMostSteps = 5'000;
+constexpr std::size_t kMostTraversalSteps = 5'000;
 
 /// The samples of one pixel of a job.
 class PixelSamples {
@@ -172,9 +172,9 @@ void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options
     const PrimitiveTable& table = loaded.scene.aggregate->primitives();
     e.traversal = trace_traversal(loaded.scene, accelerator, ray);
     std::vector<TraversalStep>& steps = e.traversal.steps;
-    if (steps.size() > kMostSteps) {
-        e.steps_left_out = steps.size() - kMostSteps;
-        steps.resize(kMostSteps);
+    if (steps.size() > kMostTraversalSteps) {
+        e.steps_left_out = steps.size() - kMostTraversalSteps;
+        steps.resize(kMostTraversalSteps);
     }
     for (const TraversalStep& step : steps) {
         e.candidates.push_back(
