@@ -84,6 +84,9 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
         if (parts_of(*scene_.aggregate, hit) == own) continue;
         look_at(hit, is_sheet ? nullptr : &number, arrival);
     }
+    // Faces before the start of the ray have been crossed.
+    const double away = CoincidentSurfaces::reach(surface, direction);
+    ray_.t_min = std::max(0.0, away - std::max(0.0, point.way));
     if (opaque_) {
         others_.clear();
         instead_.reset();

@@ -78,7 +78,8 @@ class CoincidentFaces {
     CoincidentFaces& operator=(const CoincidentFaces&) = delete;
     ~CoincidentFaces() = default;
 
-    /// Finds the faces at the point where a ray along `direction` hit a surface.
+    /// Finds the faces at the point where a ray along `direction` hit a surface, none before the
+    /// start of that ray (ShadingPoint::way).
     void find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
               RayMask mask);
     /// As `find`, for rays that meet all surfaces at a place one by one: none at a thin sheet.

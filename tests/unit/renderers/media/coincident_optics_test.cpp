@@ -271,6 +271,28 @@ TEST(CoincidentOptics, AClearSheetOnAFaceThatRefractsAddsNoLight) {
     }
 }
 
+/// The second surface is so large that its error bound reaches back before the first face.
+TEST(CoincidentOptics, AFaceThatWasCrossedIsNotCrossedAgainWithALargeSurfaceBehindIt) {
+    const double half = 1e6;
+    for (const bool sheet : {false, true}) {
+        SceneMaker maker = above_a_light();
+        maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1e-9}}, maker.material(physical({1.0, 0.7})));
+        if (sheet) {
+            maker.add(Rectangle{{-half, -half, 0}, {2 * half, 0, 0}, {0, 2 * half, 0}},
+                      maker.material(clear_sheet(0.5)));
+        } else {
+            maker.add(box(-2, 0, half), maker.material(physical({1.0, 0.2})));
+        }
+        const Scene scene = maker.compile();
+        // The volume that is entered last is the innermost.
+        const double t = sheet ? 0.5 * std::exp(-0.7) : std::exp(-0.4);
+        for (const char* renderer : {"whitted", "path_tracing", "bidirectional"}) {
+            SCOPED_TRACE(::testing::Message() << renderer << sheet);
+            expect_near(testing::picture_of(scene, renderer, 1, 4).at(0, 0), {t, t, t}, 1e-6);
+        }
+    }
+}
+
 TEST(CoincidentOptics, AFaceUnderASheetKeepsItsTint) {
     Material physical_tint = testing::smooth_glass(1.0);
     physical_tint.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};
