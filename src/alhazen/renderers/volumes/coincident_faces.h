@@ -10,8 +10,8 @@
 /// lowest primitive. A solid of several media is one volume; a face of it may be a wall between two
 /// of them. Partly covering faces are ignored.
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
-/// at a boundary that refracts, a smooth sheet is not met, and of others and the boundary the one
-/// that was hit is met alone.
+/// a boundary that refracts is met below a smooth sheet, and of others and the boundary the one
+/// that was hit is met alone. Of several thin sheets one is met.
 
 #include <algorithm>
 #include <array>
