@@ -209,6 +209,7 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     const bool varies =
         set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);
     point.view = -ray.direction;
+    point.way = dot(point.surface.point - ray.origin, ray.direction) - ray.t_min;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
     // The interpolated normal is turned by its own cosine: near silhouettes, and in meshes wound

@@ -65,6 +65,7 @@ struct ShadingPoint {
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
     Vec3 view;                        ///< unit, towards the ray's origin
+    double way = 0;                   ///< from the start of the ray
     bool has_map = false;             ///< `normal` is that of a normal map
     Vec3 mapped;                      ///< with one: its unit normal, as the surface has it
     bool coat_is_tilted = false;      ///< a clear coat has another normal than `normal`

@@ -1,7 +1,7 @@
 #pragma once
 /// The surface that a path meets where faces of several parts coincide (coincident_faces.h): an
 /// opaque one, a thin sheet where the boundary only changes the media, which is crossed with it, or
-/// a boundary that refracts in place of a smooth sheet.
+/// a boundary that refracts, below a smooth sheet.
 
 #include <optional>
 
@@ -29,14 +29,20 @@ class MetFaces {
     [[nodiscard]] std::optional<Hit> find(const ShadingPoint& hit, const End& end,
                                           ShadingPoint& met) {
         faces_.find(hit, end.direction, end.arrival, end.mask);
+        has_sheet_ = false;
         const bool is_opaque = faces_.opaque().has_value();
         std::optional<Hit> other = faces_.opaque();
-        left_ = Spectrum::all(1);
         if (!is_opaque && faces_.instead()) {
-            own_.set(scene_, hit, end.media, end.waves, false, end.bsdfs, &faces_.others());
-            if (own_.yields()) {
+            if (yields(hit, end)) {
+                has_sheet_ = hit.material->thin;
                 other = faces_.instead();
-                left_ = own_.yielded();
+            } else if (!hit.material->thin) {
+                set_shading_point(scene_, faces_.ray(), *faces_.instead(), end.arrival, {}, sheet_);
+                if (!is_hit_from_behind(sheet_)) {
+                    faces_.find(sheet_, end.direction, end.arrival, end.mask);
+                    has_sheet_ = yields(sheet_, end);
+                    faces_.find(hit, end.direction, end.arrival, end.mask);
+                }
             }
         }
         if (!other) return other;
@@ -47,14 +53,22 @@ class MetFaces {
     }
     /// The faces that are crossed with the surface met.
     [[nodiscard]] const OtherFaces& others() const { return faces_.others(); }
-    /// What is left of the light of the path where the surface that it hit yielded to another.
-    [[nodiscard]] const Spectrum& left() const { return left_; }
+    /// The smooth sheet at the place of the boundary met, which refracts; null: none. Valid until
+    /// the next `find`.
+    [[nodiscard]] const ScatterPoint* sheet() const { return has_sheet_ ? &own_ : nullptr; }
 
   private:
+    /// Sets `own_` to a surface whose faces were found; true if it yields.
+    [[nodiscard]] bool yields(const ShadingPoint& point, const End& end) {
+        own_.set(scene_, point, end.media, end.waves, false, end.bsdfs, &faces_.others());
+        return own_.yields();
+    }
+
     const Scene& scene_;
     CoincidentFaces faces_;
-    ScatterPoint own_;  ///< the surface that was hit
-    Spectrum left_ = Spectrum::all(1);
+    ScatterPoint own_;    ///< a surface that may yield: the one that was hit, or the sheet there
+    ShadingPoint sheet_;  ///< at the place of a boundary that was hit
+    bool has_sheet_ = false;
 };
 
 }  // namespace alhazen

@@ -85,10 +85,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
                 point_,
                 {ray.direction, arrival, mask(), front.media, front.waves, &bsdfs_, &constant_},
                 point_);
-            if (met) {
-                hit_ = *met;
-                front.throughput = front.throughput * faces_.left();
-            }
+            if (met) hit_ = *met;
             return Meets::Surface;
         }
         if (passed_) return Meets::Nothing;
@@ -175,7 +172,8 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     PathVertex& v = ends.v;
     const bool from_eye = transport == Transport::Radiance;
     if (from_eye) set_emission(front, ends);
-    v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_, &faces_.others());
+    v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_, &faces_.others(),
+                  faces_.sheet());
     if (v.scatter.needs_hero()) {
         front.waves.keep_hero(front.throughput);
         v.throughput = front.throughput;

@@ -80,7 +80,7 @@ void ScatterPoint::set_bsdf(const Scene& scene, const Surface& surface, const Bs
 
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
                        const Wavelengths& waves, bool both_ways, BsdfCache* known,
-                       const OtherFaces* others) {
+                       const OtherFaces* others, const ScatterPoint* sheet) {
     const Surface& surface = point.surface;
     const MaterialSample& material = *point.material;
     geometric_ = point.geometric;
@@ -106,7 +106,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         thin_ && !others_.empty() && !(eta_of_faces(scene, media, waves) == Spectrum::all(1));
     if (refracts_at_sheet) others_.clear();
     const Spectrum all = etas(scene, point, media, waves);
-    if (point.coat_is_tilted || (thin_ && !others_.empty())) known = nullptr;
+    if (point.coat_is_tilted || sheet != nullptr || (thin_ && !others_.empty())) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
     BsdfPlace place{.eta = all.a,
                     .from_inside = !entering_,
@@ -121,6 +121,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         set_bsdf(scene, surface, place, known);
     }
     tint_by_faces(waves, own_);
+    if (sheet != nullptr) lay_below(*sheet, all.a, own_);
     set_coat(scene, point, tangent);
     only_changes_media_ = bsdf().lets_through() && !coat_ && all == Spectrum::all(1) && !thin_ &&
                           material.coverage >= 1.0 && material.emission.is_black() &&
@@ -140,24 +141,49 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     } else {
         make_bsdf(scene, surface, place, from_behind_.emplace());
         tint_by_faces(waves, *from_behind_);
+        if (sheet != nullptr) lay_below(*sheet, place.eta, *from_behind_);
     }
 }
 
 void ScatterPoint::tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const {
     for (const OtherFace& other : others_) {
-        if (other.tints) bsdf.tint_transmission(waves.reflectance(other.kt));
+        if (other.tints) bsdf.tint(Spectrum::all(1), waves.reflectance(other.kt));
     }
 }
 
-Spectrum ScatterPoint::yielded() const {
-    if (only_changes_media_) return Spectrum::all(1);
-    const Spectrum passed = straight();
-    const Spectrum reflected = bsdf().singular(local_view_, Transport::Radiance).reflected;
-    Spectrum left;
-    for (int i = 0; i < Spectrum::kCount; ++i) {
-        if (reflected[i] < 1.0) left[i] = std::min(1.0, passed[i] / (1.0 - reflected[i]));
+void ScatterPoint::lay_below(const ScatterPoint& sheet, double eta, Bsdf& bsdf) const {
+    // Densities of rough boundaries must not depend on the view.
+    const bool rough = bsdf.has_density(), from_dense = eta > 1.0 && !rough;
+    Vec3 view = rough ? Vec3{0, 0, 1} : local_view_;
+    if (from_dense) {
+        view.x *= eta;
+        view.y *= eta;
+        const double cosine_squared = 1.0 - view.x * view.x - view.y * view.y;
+        if (!(cosine_squared > 0.0)) return;
+        view.z = std::sqrt(cosine_squared);
     }
-    return left;
+    const Spectrum on_top = sheet.bsdf().singular(view, Transport::Radiance).reflected;
+    const Spectrum through = sheet.bsdf().straight(view);
+    const SingularLight below = bsdf.singular(local_view_, Transport::Importance);
+    Spectrum reflected = Spectrum::all(1), transmitted, added;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const double once = rough ? 1.0 - on_top[i] : 1.0 - on_top[i] * below.reflected[i];
+        if (!(once > 0.0)) {
+            added[i] = 1.0;
+            reflected[i] = 0.0;
+            continue;
+        }
+        transmitted[i] = through[i] / once;
+        if (from_dense) {
+            added[i] = on_top[i] * below.transmitted[i] * below.transmitted[i] / once;
+        } else {
+            added[i] = on_top[i];
+            reflected[i] = through[i] * transmitted[i];
+        }
+    }
+    if (rough) return bsdf.tint(transmitted, transmitted);
+    bsdf.tint(reflected, transmitted);
+    bsdf.add(added, Mirror{ConstantTerm{added}});
 }
 
 Spectrum ScatterPoint::eta_of_faces(const Scene& scene, const MediumStack& media,

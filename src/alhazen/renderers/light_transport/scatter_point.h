@@ -45,10 +45,11 @@ class ScatterPoint {
     /// `media`: around the path before the surface. `both_ways`: enables `reverse_density`.
     /// `known`: shared BSDFs; may be null; if it keeps replaced BSDFs, the point is valid until
     /// `BsdfCache::release`. `others`: faces that coincide with the surface and are crossed with
-    /// it; null: none.
+    /// it; null: none. `sheet`: a smooth one at the place of a boundary that refracts, which
+    /// yielded to it; null: none.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
              const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr,
-             const OtherFaces* others = nullptr);
+             const OtherFaces* others = nullptr, const ScatterPoint* sheet = nullptr);
 
     /// True if the point is valid for the hero wavelength only: call Wavelengths::keep_hero before
     /// any other function.
@@ -83,9 +84,6 @@ class ScatterPoint {
     /// (CoincidentFaces::instead): of a boundary that has no other effect than to bound volumes, of
     /// the same index, and of a smooth sheet that does not emit at a boundary that refracts.
     [[nodiscard]] bool yields() const { return yields_; }
-    /// What is left of the light of a path where the surface yields: of a sheet what it passes of
-    /// the light that it does not reflect, since the boundary reflects instead.
-    [[nodiscard]] Spectrum yielded() const;
     /// The straight transmittance of a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
         return null_ ? bsdf().singular(local_view_, Transport::Radiance).transmitted
@@ -175,6 +173,9 @@ class ScatterPoint {
 
     /// Tints the light through a thin sheet by the faces at its place.
     void tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const;
+    /// Lays a smooth sheet on the side of the lower index of a boundary: light is reflected between
+    /// the two any number of times. A rough boundary is only tinted. `eta`: as of BsdfPlace.
+    void lay_below(const ScatterPoint& sheet, double eta, Bsdf& bsdf) const;
 
     Bsdf own_;
     const Bsdf* shared_ = nullptr;     ///< in a cache that keeps it; null: `own_`

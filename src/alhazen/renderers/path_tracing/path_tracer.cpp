@@ -182,7 +182,6 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const ShadingPoint& point, 
         point, {ray.direction, arrival, mask_of(path.kind), path.media, waves(path), &bsdfs_},
         other_face_);
     if (!met) return stop(path, ray, hit, point, sum);
-    path.throughput = path.throughput * faces_.left();
     stop(path, ray, *met, other_face_, sum);
 }
 
@@ -195,7 +194,8 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         return;
     }
     Vertex& vertex = vertices_[waiting_];
-    vertex.scatter.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
+    vertex.scatter.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others(),
+                       faces_.sheet());
     if (deepest && !vertex.scatter.may_be_passed()) {
         record_step(path, PathStep::Deepest);
         return;

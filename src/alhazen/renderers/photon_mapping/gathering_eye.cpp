@@ -125,7 +125,7 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
         }
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return sum;
-        met_.set(scene_, point, path.media, along_, false, nullptr, &next_.others());
+        met_.set(scene_, point, path.media, along_, false, nullptr, &next_.others(), next_.sheet());
         if (met_.needs_hero()) along_.keep_hero(path.throughput);
         if (met_.has_density()) {
             sum += path.throughput * density_.radiance(maps_.pairs[at.waves].global, met_,

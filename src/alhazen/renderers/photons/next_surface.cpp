@@ -54,10 +54,7 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
             const auto met = faces_.find(
                 point_, {path.ray.direction, arrival, path.mask(), path.media, *path.waves},
                 point_);
-            if (met) {
-                hit_ = *met;
-                path.throughput = path.throughput * faces_.left();
-            }
+            if (met) hit_ = *met;
             return PathMeets::Surface;
         }
         if (path.passed) return PathMeets::Nothing;

@@ -80,6 +80,8 @@ class NextSurface {
     [[nodiscard]] RayMask seen_by() const { return surfaces_.seen_by(hit_); }
     /// The faces that coincide with the surface found.
     [[nodiscard]] const OtherFaces& others() const { return faces_.others(); }
+    /// MetFaces::sheet.
+    [[nodiscard]] const ScatterPoint* sheet() const { return faces_.sheet(); }
     /// Continues after a surface at the point `at`.
     static void go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoint& scatter,
                       const Scattered& drawn);

@@ -114,7 +114,8 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         const bool deepest = at.last.scatterings >= settings_.depth;
         if (point.material->unlit) return;
         if (deepest && !next_.media().may_be_passed(*point.material)) return;
-        scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others());
+        scatter_.set(scene_, point, path.media, at.waves, false, nullptr, &next_.others(),
+                     next_.sheet());
         if (deepest && !scatter_.may_be_passed()) return;
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         const int here = event;

@@ -149,7 +149,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
-        scatter_.set(scene_, point, path.media, waves, false, nullptr, &next_.others());
+        scatter_.set(scene_, point, path.media, waves, false, nullptr, &next_.others(),
+                     next_.sheet());
         if (scatter_.is_null_boundary()) {
             // Passing straight through is no event.
             if (path.passed || path.met > kMaxPassedSurfaces) return true;

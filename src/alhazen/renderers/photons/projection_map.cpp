@@ -51,7 +51,8 @@ bool meets_mirror(const Scene& scene, const LightRay& light, float time, const L
     if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
         return false;
     }
-    scatter.set(scene, next.point(), path.media, kColorChannels, false, nullptr, &next.others());
+    scatter.set(scene, next.point(), path.media, kColorChannels, false, nullptr, &next.others(),
+                next.sheet());
     return scatter.has_singular();
 }
 

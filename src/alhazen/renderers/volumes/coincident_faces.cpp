@@ -34,6 +34,14 @@ bool has_inside(const Scene& scene, MaterialId id) {
     return has_inside(scene.materials[static_cast<std::size_t>(id)]);
 }
 
+/// True if nothing below the reflection of a metallic-roughness material is left.
+bool is_metal(const Material& m) {
+    if (m.alpha_mode != AlphaMode::Opaque || m.conductor || m.dielectric) return false;
+    if (!m.metallic_roughness) return false;
+    const ScalarInput& metallic = m.metallic_roughness->metallic;
+    return metallic.texture == kNoTexture && metallic.value >= 1.0;
+}
+
 /// The medium of the outermost solid of constructive geometry around a hit: CsgSolid::only_medium;
 /// kNoMedium: it is of no solid.
 std::uint32_t medium_of_solid(const Scene& scene, const Hit& hit) {
@@ -60,9 +68,9 @@ CoincidentFaces::CoincidentFaces(const Scene& scene) : scene_(scene) {
     }
     std::vector<Kind> kinds;
     for (const Material& m : scene.materials) {
-        kinds.push_back(may_bound_volume(m) ? Kind::BoundsVolume
-                        : m.is_opaque()     ? Kind::Opaque
-                                            : Kind::Neither);
+        kinds.push_back(may_bound_volume(m)            ? Kind::BoundsVolume
+                        : m.is_opaque() || is_metal(m) ? Kind::Opaque
+                                                       : Kind::Neither);
     }
     kinds_ = std::make_shared<const std::vector<Kind>>(std::move(kinds));
 }
@@ -78,6 +86,9 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const bool is_sheet = point.material->thin;
     if (is_sheet ? kind == Kind::Opaque || surface.media.known : kind != Kind::BoundsVolume) return;
     ray_ = CoincidentSurfaces::around(surface, direction);
+    // Faces before the start of the ray have been crossed.
+    const double away = CoincidentSurfaces::reach(surface, direction);
+    ray_.t_min = std::max(0.0, away - std::max(0.0, point.way));
     find_hits(surface, arrival, mask);
     const HitParts own{surface.part, surface.instance};
     const std::uint64_t number = volume_number(surface);
@@ -166,13 +177,10 @@ void CoincidentFaces::find_hits(const Surface& surface, const Arrival& arrival, 
 
 void CoincidentFaces::look_at(const Hit& hit, const std::uint64_t* own, const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
-    if (other_.material->coverage < 1.0) return;
-    if (other_.material->thin) {
-        const auto id = static_cast<std::size_t>(other_.surface.materials[0]);
-        if (own != nullptr && !instead_ && (*kinds_)[id] != Kind::Opaque &&
-            !other_.surface.media.known) {
-            instead_ = hit;
-        }
+    if (other_.material->coverage < 1.0 || is_hit_from_behind(other_)) return;
+    const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
+    if (other_.material->thin && (*kinds_)[material] != Kind::Opaque) {
+        if (own != nullptr && !instead_ && !other_.surface.media.known) instead_ = hit;
         return;
     }
     const bool known = other_.surface.media.known;
@@ -184,7 +192,6 @@ void CoincidentFaces::look_at(const Hit& hit, const std::uint64_t* own, const Ar
             std::any_of(others_.begin(), others_.end(), is_same))
             return;
     }
-    const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
     if ((*kinds_)[material] == Kind::Opaque) {
         if (!opaque_) opaque_ = hit;
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {

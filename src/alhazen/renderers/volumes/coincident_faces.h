@@ -10,8 +10,8 @@
 /// lowest primitive. A solid of several media is one volume; a face of it may be a wall between two
 /// of them. Partly covering faces are ignored.
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
-/// at a boundary that refracts, a smooth sheet is not met, and of others and the boundary the one
-/// that was hit is met alone.
+/// a boundary that refracts is met below a smooth sheet, and of others and the boundary the one
+/// that was hit is met alone. Of several thin sheets one is met.
 
 #include <algorithm>
 #include <array>
@@ -78,7 +78,8 @@ class CoincidentFaces {
     CoincidentFaces& operator=(const CoincidentFaces&) = delete;
     ~CoincidentFaces() = default;
 
-    /// Finds the faces at the point where a ray along `direction` hit a surface.
+    /// Finds the faces at the point where a ray along `direction` hit a surface, none before the
+    /// start of that ray (ShadingPoint::way).
     void find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
               RayMask mask);
     /// As `find`, for rays that meet all surfaces at a place one by one: none at a thin sheet.

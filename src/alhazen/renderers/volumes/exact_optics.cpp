@@ -10,6 +10,7 @@
 #include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
+#include "alhazen/shading/microfacets/ggx.h"
 #include "alhazen/shading/optics/fresnel.h"
 
 namespace alhazen {
@@ -72,25 +73,29 @@ ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
     media_[kOutside].index = scene.conventions.shading.air_index;
 }
 
-namespace {
-
-/// Completes the point of a surface that is met instead of another, which it does not yield to.
-class MetInstead final : public SurfaceOptics {
+/// Completes the point of a surface that is met instead of another.
+class ExactOptics::MetInstead final : public SurfaceOptics {
   public:
-    MetInstead(ExactOptics& optics, const Rgb& tint) : optics_(optics), tint_(tint) {}
-    void set_media(const Arrival& arrival, ShadingPoint& point) override {
-        optics_.set_media(arrival, point, false);
-        point.passing = tint_ * point.passing;
+    MetInstead(ExactOptics& optics, const ShadingPoint& other) : optics_(optics) {
+        if (other.material->thin) sheet_ = Sheet{other.surface, *other.material};
     }
+    void set_media(const Arrival& arrival, ShadingPoint& point) override {
+        optics_.set_media(arrival, point, this);
+    }
+    /// The other surface; none: it was no sheet.
+    [[nodiscard]] const std::optional<Sheet>& sheet() const { return sheet_; }
 
   private:
     ExactOptics& optics_;
-    Rgb tint_;  ///< of the other surface
+    std::optional<Sheet> sheet_;
 };
 
-}  // namespace
+void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
+    set_media(arrival, point, nullptr);
+}
 
-void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point, bool may_yield) {
+void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
+                            const MetInstead* instead) {
     faces_.find(point, -point.view, arrival, arrival.mask);
     if (faces_.opaque()) {
         // Its material bounds no volume: no further faces are looked for.
@@ -100,11 +105,13 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point, bool ma
     const MaterialSample& met = *point.material;
     const Sides sides =
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
-    if (may_yield && faces_.instead() && yields(point, arrival.medium, sides)) {
-        MetInstead other(*this, yielded(met));
+    if (instead == nullptr && faces_.instead() && yields(point, arrival.medium, sides)) {
+        MetInstead other(*this, point);
         return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
                                  {.optics = &other}, point);
     }
+    const std::optional<Sheet> sheet =
+        instead != nullptr ? instead->sheet() : sheet_on(point, arrival, sides);
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
     point.medium_is_physical = met.physical || !tints_events_;
@@ -119,36 +126,85 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point, bool ma
     if (met.physical) {
         turn(point.surface, lookup_at(scene_, point.surface, -point.view, arrival.width), cosine,
              sides.here, sides.beyond, point.own_material());
+        point.passing = tint_of(*point.material) * sides.before;
     } else if (optics_.fresnel && !met.transmissive.is_black()) {
         const double reflected = dielectric_reflectance(cosine, point.behind.eta);
         MaterialSample& own = point.own_material();
         own.reflective = {reflected, reflected, reflected};
         point.passing = (1.0 - reflected) * (tint_of(own) * sides.before);
-        return;
+    } else {
+        point.passing = tint_of(*point.material) * sides.before;
     }
-    point.passing = tint_of(*point.material) * sides.before;
+    if (sheet) lay_below(*sheet, arrival, sides, point);
 }
 
+namespace {
+
+/// True if a thin sheet does not scatter or emit light; with the roughness below which BSDFs are
+/// smooth, too.
+bool is_smooth(const MaterialSample& sheet) {
+    return sheet.roughness * sheet.roughness < kSmoothAlpha && sheet.diffuse.is_black() &&
+           sheet.ambient.is_black() && sheet.emission.is_black();
+}
+
+}  // namespace
+
 bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
-    const MaterialSample& met = *point.material;
-    if (met.thin) {
+    if (point.material->thin) {
         const Sides all = sides_of_all(nullptr, around, faces_.others());
-        const bool smooth = met.physical ? met.roughness == 0.0 : met.specular.is_black();
-        return all.here != all.beyond && smooth && met.diffuse.is_black() &&
-               met.ambient.is_black() && met.emission.is_black();
+        return all.here != all.beyond && is_smooth(*point.material);
     }
     const auto id = static_cast<std::size_t>(point.surface.materials[0]);
     return sides.here == sides.beyond && may_only_bound_volume(scene_.materials[id]);
 }
 
-Rgb ExactOptics::yielded(const MaterialSample& met) const {
-    if (!met.thin) return {1, 1, 1};
-    Rgb left = tint_of(met);
-    for (int i = 0; met.physical && i < 3; ++i) {
-        const double passed = 1.0 - met.reflective[i];
-        left[i] = passed > 0.0 ? std::min(1.0, left[i] / passed) : 0.0;
+std::optional<ExactOptics::Sheet> ExactOptics::sheet_on(const ShadingPoint& point,
+                                                        const Arrival& arrival,
+                                                        const Sides& sides) const {
+    if (point.material->thin || !faces_.instead() || sides.here == sides.beyond) return {};
+    Sheet sheet;
+    set_surface(*scene_.aggregate, faces_.ray(), *faces_.instead(), CoordinateNeed::all(),
+                sheet.surface, arrival.time);
+    const SurfaceLookup lookup = lookup_at(scene_, sheet.surface, -point.view, arrival.width);
+    sheet.sample = material_at(scene_, sheet.surface, lookup.footprint, lookup.aperture);
+    if (!is_smooth(sheet.sample)) return {};
+    return sheet;
+}
+
+void ExactOptics::lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
+                            ShadingPoint& point) const {
+    // The sheet is on the side of the lower index.
+    const bool from_dense = sides.here > sides.beyond;
+    double cosine = dot(point.view, point.normal);
+    if (from_dense) {
+        const double squared = 1.0 - point.behind.eta * point.behind.eta * (1.0 - cosine * cosine);
+        if (!(squared > 0.0)) return;
+        cosine = std::sqrt(squared);
     }
-    return left;
+    const bool has_index = sheet.sample.index > 0.0;
+    const double around = std::min(media_[arrival.medium].index, media_[sides.behind].index);
+    MaterialSample turned = sheet.sample;
+    turn(sheet.surface, lookup_at(scene_, sheet.surface, -point.view, arrival.width), cosine,
+         has_index ? around : 1.0, has_index ? sheet.sample.index : 1.0, turned);
+    MaterialSample& below = point.own_material();
+    for (int i = 0; i < 3; ++i) {
+        const double on_top = turned.reflective[i], through = turned.transmissive[i];
+        // Light is reflected between the two any number of times.
+        const double once = 1.0 - on_top * below.reflective[i];
+        const double passes = once > 0.0 ? through / once : 0.0, passed = point.passing[i];
+        point.passing[i] = passes * passed;
+        if (from_dense) {
+            const double back = once > 0.0 ? passed * passed / once : 0.0;
+            below.reflective[i] += back * on_top;
+            below.specular[i] += back * turned.specular[i];
+            continue;
+        }
+        below.reflective[i] = on_top + through * passes * below.reflective[i];
+        below.specular[i] = turned.specular[i] + through * passes * below.specular[i];
+        below.diffuse[i] *= through * passes;
+        below.ambient[i] *= through * passes;
+        below.emission[i] *= passes;
+    }
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {

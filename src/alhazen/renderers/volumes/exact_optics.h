@@ -49,11 +49,7 @@ class ExactOptics final : public SurfaceOptics {
 
     /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.
-    void set_media(const Arrival& arrival, ShadingPoint& point) override {
-        set_media(arrival, point, true);
-    }
-    /// `may_yield`: whether a thin sheet or the boundary at its place may be met instead.
-    void set_media(const Arrival& arrival, ShadingPoint& point, bool may_yield);
+    void set_media(const Arrival& arrival, ShadingPoint& point) override;
 
     /// Hides the volume that the surface bounds, if it is part of the medium, from shadow rays.
     void hide(std::uint32_t medium, const Surface& surface);
@@ -96,10 +92,23 @@ class ExactOptics final : public SurfaceOptics {
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
+    /// A thin sheet at the place of a boundary; its sample is as evaluated, not turned to a ray.
+    struct Sheet {
+        Surface surface;
+        MaterialSample sample;
+    };
+    class MetInstead;
+    /// `instead`: of another surface at its place, which the point does not yield to.
+    void set_media(const Arrival& arrival, ShadingPoint& point, const MetInstead* instead);
     /// ScatterPoint::yields. `sides`: of the surface.
     [[nodiscard]] bool yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides);
-    /// ScatterPoint::yielded.
-    [[nodiscard]] Rgb yielded(const MaterialSample& met) const;
+    /// The smooth sheet that the boundary `point` is met below, as a ray hits the two; none: it
+    /// does not refract, or there is none.
+    [[nodiscard]] std::optional<Sheet> sheet_on(const ShadingPoint& point, const Arrival& arrival,
+                                                const Sides& sides) const;
+    /// ScatterPoint::lay_below.
+    void lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
+                   ShadingPoint& point) const;
     /// A face that a ray crosses.
     struct Face {
         Medium inside;  ///< of a wall behind it

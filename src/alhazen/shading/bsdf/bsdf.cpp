@@ -131,12 +131,19 @@ void Bsdf::add(const Bsdf& other, double weight) {
     }
 }
 
-void Bsdf::tint_transmission(const Spectrum& tint) {
-    for (Unmade<Part>& part : parts_) {
-        if (std::visit([]<class L>(const L&) { return L::kTransmits; }, part.value.lobe)) {
-            part.value.weight = tint * part.value.weight;
+void Bsdf::tint(const Spectrum& reflected, const Spectrum& transmitted) {
+    for (Unmade<Part>& unmade : parts_) {
+        Part& part = unmade.value;
+        if (auto* const glass = std::get_if<SmoothDielectric>(&part.lobe)) {
+            glass->reflection_tint = reflected * glass->reflection_tint;
+            glass->transmission_tint = transmitted * glass->transmission_tint;
+            continue;
         }
+        const bool transmits =
+            std::visit([]<class L>(const L&) { return L::kTransmits; }, part.lobe);
+        part.weight = (transmits ? transmitted : reflected) * part.weight;
     }
+    if (!parts_.empty()) set_traits();
 }
 
 double Bsdf::through(CoverSet covers, const Vec3& direction) const {

@@ -54,8 +54,9 @@ class Bsdf {
     CoverSet add_cover(const Cover& cover);
     /// Adds all lobes and covers of another BSDF, scaled by `weight`: blended materials.
     void add(const Bsdf& other, double weight);
-    /// Multiplies the weights of all lobes that transmit; for those that do not reflect.
-    void tint_transmission(const Spectrum& tint);
+    /// Multiplies what is reflected and what is transmitted; of rough boundaries both by
+    /// `transmitted`.
+    void tint(const Spectrum& reflected, const Spectrum& transmitted);
 
     /// The BSDF value in 1/steradian, without singular lobes.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,

@@ -271,6 +271,94 @@ TEST(CoincidentOptics, AClearSheetOnAFaceThatRefractsAddsNoLight) {
     }
 }
 
+/// Half of a mirror, a mirror, glass of a high index, a tint, a tint that is hardly rough.
+std::vector<Material> reflecting_sheets() {
+    Material half = clear_sheet(0.9);
+    half.index.value = 1.5;
+    half.metallic_roughness->metallic.value = 0.5;
+    Material mirror = half;
+    mirror.metallic_roughness->metallic.value = 1.0;
+    Material dense = clear_sheet(1.0);
+    dense.index.value = 10.0;
+    Material tint = clear_sheet(0.5);
+    tint.index.value = 1.5;
+    Material hardly_rough = tint;
+    hardly_rough.metallic_roughness->roughness.value = 0.02;
+    return {half, mirror, dense, tint, hardly_rough};
+}
+
+/// Of a block in uniform light of 1 above a weaker light, with a sheet, which is named first or
+/// not, at a height.
+Scene block_and_sheet(const Material& sheet, double z, bool first) {
+    SceneMaker maker;
+    ShadingConventions& c = maker.description().conventions.shading;
+    c.optics = {true, true};
+    c.max_depth = 12;
+    maker.description().picture.background = kWhite;
+    maker.description().cameras[0].camera =
+        look_along({-1.2, 0, 5}, {0.3, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
+    maker.add(Rectangle{{-50, -50, -20}, {100, 0, 0}, {0, 100, 0}},
+              maker.material(glowing({0.2, 0.2, 0.2})));
+    if (first) maker.add(square(z), maker.material(sheet));
+    maker.add(box(0, 1), maker.material(physical({1.5, 0.5})));
+    if (!first) maker.add(square(z), maker.material(sheet));
+    return maker.compile();
+}
+
+TEST(CoincidentOptics, ASmoothSheetOnAFaceThatRefractsActsAsALittleOutsideOfIt) {
+    for (const Material& sheet : reflecting_sheets()) {
+        for (const double z : {0.0, 1.0}) {
+            for (const bool first : {false, true}) {
+                SCOPED_TRACE(::testing::Message() << z << first);
+                const Scene on = block_and_sheet(sheet, z, first);
+                const Scene apart = block_and_sheet(sheet, z > 0.0 ? z + 1e-5 : z - 1e-5, first);
+                for (const char* renderer : {"whitted", "distributed"}) {
+                    SCOPED_TRACE(renderer);
+                    expect_near(testing::picture_of(on, renderer, 1, 1).at(0, 0),
+                                testing::picture_of(apart, renderer, 1, 1).at(0, 0), 1e-4);
+                }
+                for (const char* renderer : {"path_tracing", "bidirectional"}) {
+                    SCOPED_TRACE(renderer);
+                    expect_near(testing::picture_of(on, renderer, 1, 1000).at(0, 0),
+                                testing::picture_of(apart, renderer, 1, 1000).at(0, 0), 0.06);
+                }
+            }
+        }
+    }
+}
+
+TEST(CoincidentOptics, ARoughMetalOnAFaceIsMetWhicheverIsNamedFirst) {
+    Material metal = clear_sheet(0.9);
+    metal.metallic_roughness->metallic.value = 1.0;
+    metal.metallic_roughness->roughness.value = 0.3;
+    for (const bool first : {false, true}) {
+        expect_near(center(block_and_sheet(metal, 1.0, first)),
+                    center(block_and_sheet(metal, 1.0 + 1e-5, first)), 1e-6);
+    }
+}
+
+/// The second surface is so large that its error bound reaches back before the first face.
+TEST(CoincidentOptics, AFaceThatWasCrossedIsNotCrossedAgainWithALargeSurfaceBehindIt) {
+    const double half = 1e6;
+    for (const bool sheet : {false, true}) {
+        SceneMaker maker = above_a_light();
+        maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1e-9}}, maker.material(physical({1.0, 0.7})));
+        if (sheet) {
+            maker.add(Rectangle{{-half, -half, 0}, {2 * half, 0, 0}, {0, 2 * half, 0}},
+                      maker.material(clear_sheet(0.5)));
+        } else {
+            maker.add(box(-2, 0, half), maker.material(physical({1.0, 0.2})));
+        }
+        const Scene scene = maker.compile();
+        // The volume that is entered last is the innermost.
+        const double t = sheet ? 0.5 * std::exp(-0.7) : std::exp(-0.4);
+        for (const char* renderer : {"whitted", "path_tracing", "bidirectional"}) {
+            SCOPED_TRACE(::testing::Message() << renderer << sheet);
+            expect_near(testing::picture_of(scene, renderer, 1, 4).at(0, 0), {t, t, t}, 1e-6);
+        }
+    }
+}
+
 TEST(CoincidentOptics, AFaceUnderASheetKeepsItsTint) {
     Material physical_tint = testing::smooth_glass(1.0);
     physical_tint.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};
