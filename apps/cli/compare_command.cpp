@@ -245,11 +245,14 @@ void add_compare(CLI::App& app, int& exit_status) {
                      "Picture size in pixels; default: the scene's, at most 256")
         ->type_name("WxH");
     command->add_option("--depth", args->depth, "Recursion depth, 0 = eye rays only")
+        ->type_name("N")
         ->check(CLI::Range(0, 1000));
     command->add_option("--camera", args->compare.trial.camera, "Camera by name or position")
         ->type_name("NAME|INDEX");
-    command->add_option("--protocol", args->protocol,
-                        "Count as published: spd = 513x513 corner rays, depth 5");
+    command
+        ->add_option("--protocol", args->protocol,
+                     "Count as published: spd = 513x513 corner rays, depth 5")
+        ->type_name("NAME");
     command
         ->add_option("--allow-path", args->allow_paths,
                      "Another folder that files named by the scene may lie in; may be repeated")
@@ -271,7 +274,7 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->add_option("--along", args->along,
                      "View direction: x, y, z or isometric; default: across the ray")
         ->type_name("AXIS");
-    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    add_quiet(*command, args->quiet);
     command->callback([args, command, &exit_status] {
         for (const char* name : {"--accelerators", "--no-tuning", "--size", "--depth", "--camera",
                                  "--protocol", "--allow-path", "--strict"}) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/session/conversion/convert.h"
 #include "alhazen/session/conversion/tessellated.h"
@@ -16,7 +15,7 @@ namespace alhazen::cli {
 namespace {
 
 struct ConvertArguments {
-    SceneArguments scene;
+    ReadArguments scene;
     std::string output;
     bool quiet = false;
     std::optional<double> tolerance;
@@ -76,7 +75,7 @@ void add_convert(CLI::App& app, int& exit_status) {
         "Write a scene in the native format, its meshes as PLY, OBJ or STL, its patches as OBJ or "
         ".bpt");
     const auto args = std::make_shared<ConvertArguments>();
-    args->scene.add_to(*command, kDefaultAccelerator);
+    args->scene.add_to(*command);
     command
         ->add_option("output", args->output,
                      "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes, "
@@ -90,7 +89,7 @@ void add_convert(CLI::App& app, int& exit_status) {
                      "Replace shapes by triangles at most this far from them, in units of the "
                      "scene")
         ->type_name("X");
-    command->add_flag("-q,--quiet", args->quiet, "No warnings, no summary");
+    add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }
 

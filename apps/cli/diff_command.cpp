@@ -77,13 +77,15 @@ void add_diff(CLI::App& app, int& exit_status) {
     };
     CLI::App* command = app.add_subcommand("diff", "Compare two pictures; exit 1 above the bound");
     const auto args = std::make_shared<Arguments>();
-    command->add_option("a", args->a, "First picture")->required();
-    command->add_option("b", args->b, "Second picture")->required();
+    command->add_option("a", args->a, "First picture")->type_name("FILE")->required();
+    command->add_option("b", args->b, "Second picture")->type_name("FILE")->required();
     std::string metrics;
     for (const Metric& m : kMetrics) metrics += fmt::format("\n  {:<16} {}", m.name, m.meaning);
     command->add_option("--metric", args->metric, "Metric that --max bounds:" + metrics)
+        ->type_name("NAME")
         ->capture_default_str();
     command->add_option("--max", args->max, "Largest value of the metric that passes")
+        ->type_name("X")
         ->check(number_in(0.0, std::numeric_limits<double>::infinity()))
         ->capture_default_str();
     command

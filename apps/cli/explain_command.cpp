@@ -117,6 +117,7 @@ void add_explain(CLI::App& app, int& exit_status) {
         ->check(CLI::IsMember({"whitted", "cone_tracing", "beam_tracing"}))
         ->type_name("NAME");
     command->add_option("--depth", args->depth, "Recursion depth; default: the format's")
+        ->type_name("N")
         ->check(CLI::Range(0, 1000));
     command
         ->add_option("--spp", args->explain.render.samples_per_pixel,
@@ -127,6 +128,7 @@ void add_explain(CLI::App& app, int& exit_status) {
         ->capture_default_str()
         ->type_name("K");
     command->add_option("--seed", args->explain.render.seed, "Seed of the sample positions")
+        ->type_name("N")
         ->capture_default_str()
         ->check(unsigned_number());
     command
@@ -134,7 +136,7 @@ void add_explain(CLI::App& app, int& exit_status) {
                      "The accelerator whose steps are shown: " + traceable_accelerators())
         ->capture_default_str()
         ->type_name("NAME[:SETTING=VALUE,...]");
-    command->add_flag("-q,--quiet", args->quiet, "No messages");
+    add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] { exit_status = run_explain(*args); });
 }
 

@@ -77,14 +77,16 @@ void add_generate(CLI::App& app, int& exit_status) {
         ->required()
         ->type_name("NAME");
     command->add_option("--size", args->size, "Size; default: as listed below")->type_name("N");
-    command->add_option("--digits", args->digits,
-                        "Significant digits of the numbers in .nff (6, as published)");
+    command
+        ->add_option("--digits", args->digits,
+                     "Significant digits of the numbers in .nff (6, as published)")
+        ->type_name("N");
     command
         ->add_option("-o,--output", args->output,
                      "File to write: .alhazen; .nff of the SPD; .ply .obj .stl of triangles")
         ->required()
         ->type_name("OUT");
-    command->add_flag("-q,--quiet", args->quiet, "No summary");
+    add_quiet(*command, args->quiet);
     command->callback([args, command, &exit_status] {
         args->sized = command->count("--size") > 0;
         exit_status = run(*args);

@@ -92,7 +92,9 @@ void add_list(CLI::App& app, int& exit_status) {
     const auto wanted = std::make_shared<std::string>();
     std::vector<std::string> names;
     for (const Topic& topic : kTopics) names.emplace_back(topic.name);
-    command->add_option("what", *wanted, "Only these")->check(CLI::IsMember(names));
+    command->add_option("what", *wanted, "Only these")
+        ->type_name("WHAT")
+        ->check(CLI::IsMember(names));
     command->callback([wanted, &exit_status] {
         for (const Topic& topic : kTopics) {
             if (!wanted->empty() && *wanted != topic.name) continue;

@@ -147,6 +147,7 @@ void add_measure_options(CLI::App& command, MeasureArguments& args) {
                     "Solids by number, name, or the beginning or end of a name; default: all")
         ->type_name("OBJECT");
     command.add_option("--error", args.error, "Relative error of volume and area to work for")
+        ->type_name("E")
         ->capture_default_str()
         ->check(number_in(1e-12, 1.0));
     command.add_option("--budget", args.budget, "Seconds for each solid at the most")
@@ -154,6 +155,7 @@ void add_measure_options(CLI::App& command, MeasureArguments& args) {
         ->type_name("SECONDS")
         ->check(number_in(0.0, 1e9));
     command.add_option("--density", args.density, "Of all solids, instead of their materials'")
+        ->type_name("X")
         ->check(number_in(0.0, 1e300));
     command.add_option("--section", args.section, "Also the area that this plane cuts out")
         ->type_name("NX,NY,NZ,D");
@@ -168,12 +170,13 @@ void add_measure_options(CLI::App& command, MeasureArguments& args) {
         ->take_all()
         ->allow_extra_args(false);
     command.add_option("--seed", args.seed, "Seed of the lines")
+        ->type_name("N")
         ->capture_default_str()
         ->check(unsigned_number());
     command.add_flag("--all", args.all, "Measure all solids, however many");
     command.add_option("--json", args.json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
-    command.add_flag("-q,--quiet", args.quiet, "No progress, no warnings");
+    add_quiet(command, args.quiet);
 }
 
 }  // namespace

@@ -113,6 +113,10 @@ void add_strict(CLI::App& command, bool& strict) {
                      "Warnings about the scene are errors: exit 3, and nothing is done");
 }
 
+void add_quiet(CLI::App& command, bool& quiet) {
+    command.add_flag("-q,--quiet", quiet, "No progress, no warnings, no summary");
+}
+
 void ImageLimitArguments::add_to(CLI::App& command) {
     command
         .add_option("--max-image-pixels", max_pixels,
@@ -136,20 +140,16 @@ ImageLimits ImageLimitArguments::limits() const {
     return {.max_side = max_side, .max_pixels = max_pixels, .max_bytes = max_mib << 20};
 }
 
-void SceneArguments::add_to(CLI::App& command, const std::string& default_accelerator) {
-    accelerator = default_accelerator;
-    command.add_option("scene", scene, "Scene file; its format is recognised by content")
-        ->required()
-        ->type_name("SCENE");
+void AcceleratorArguments::add_to(CLI::App& command, const std::string& default_name) {
+    accelerator = default_accelerator = default_name;
     command
-        .add_option(
-            "--accelerator", accelerator,
-            "Accelerator, as NAME or NAME:SETTING=VALUE,...; see `alhazen list accelerators`")
+        .add_option("--accelerator", accelerator, "Accelerator; see `alhazen list accelerators`")
+        ->type_name("NAME[:SETTING=VALUE,...]")
         ->capture_default_str();
     command
         .add_option_function<std::string>(
             "--bound",
-            [this, default_accelerator](const std::string& bound) {
+            [this](const std::string& bound) {
                 if (accelerator != default_accelerator) {
                     throw Error(ErrorKind::Usage,
                                 "--bound stands for --accelerator bounding_volumes:bound=...: give "
@@ -181,6 +181,12 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
     command.add_flag("--compact", compact,
                      "Leaves hold the numbers of triangles, not their vertices: a fourth of the "
                      "memory, slower");
+}
+
+void ReadArguments::add_to(CLI::App& command) {
+    command.add_option("scene", scene, "Scene file; its format is recognised by content")
+        ->required()
+        ->type_name("SCENE");
     command
         .add_option("--allow-path", allow_paths,
                     "Another folder that files named by the scene may lie in; may be repeated")
@@ -232,12 +238,13 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->type_name("N")
         ->check(count_up_to(1'000'000'000));
     command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->envname("ALHAZEN_THREADS");
 }
 
-void SceneArguments::read_time(const std::string& text) {
+void ReadArguments::read_time(const std::string& text) {
     const double seconds_of_unit = text.ends_with('s')   ? 1.0
                                    : text.ends_with('m') ? 60.0
                                    : text.ends_with('h') ? 3600.0
@@ -260,7 +267,7 @@ void SceneArguments::read_time(const std::string& text) {
     target = is_limit ? value * seconds_of_unit : value;
 }
 
-std::optional<Shutter> SceneArguments::shutter_option() const {
+std::optional<Shutter> ReadArguments::shutter_option() const {
     if (shutter.empty()) return std::nullopt;
     if (shutter.size() != 2 || !std::isfinite(shutter[0]) || !std::isfinite(shutter[1]) ||
         shutter[1] < shutter[0]) {
@@ -276,13 +283,13 @@ std::optional<Shutter> SceneArguments::shutter_option() const {
     return Shutter{shutter[0], shutter[1]};
 }
 
-bool SceneArguments::names_accelerator() const {
+bool AcceleratorArguments::names_accelerator() const {
     const BuildOptions usual, build = build_options();
     return accelerator != kDefaultAccelerator || build.quality != usual.quality ||
            build.width != usual.width || build.leaves != usual.leaves;
 }
 
-BuildOptions SceneArguments::build_options() const {
+BuildOptions AcceleratorArguments::build_options() const {
     BuildOptions options;
     if (!chooses_build()) options.quality = find_build_quality(build_quality);
     check_node_width(width);
@@ -291,7 +298,18 @@ BuildOptions SceneArguments::build_options() const {
     return options;
 }
 
-LoadOptions SceneArguments::load_options() const {
+CompileOptions AcceleratorArguments::compile_options() const {
+    // The default is a name, or what stands for all of them.
+    if (accelerator != default_accelerator) check_accelerator(accelerator);
+    (void)find_csg_evaluator(csg);
+    CompileOptions options;
+    options.accelerator = accelerator;
+    options.build = build_options();
+    options.csg = csg;
+    return options;
+}
+
+LoadOptions ReadArguments::load_options() const {
     LoadOptions options;
     options.import.allowed_folders.assign(allow_paths.begin(), allow_paths.end());
     options.import.animation = animation;
@@ -310,11 +328,19 @@ LoadOptions SceneArguments::load_options() const {
         if (!std::isfinite(*time)) throw Error(ErrorKind::Usage, "--time must be a finite number");
         options.import.time = time;
     }
-    options.compile.accelerator = accelerator;
-    options.compile.build = build_options();
-    options.compile.csg = csg;
     options.threads = threads;
     options.strict = strict;
+    return options;
+}
+
+void SceneArguments::add_to(CLI::App& command, const std::string& default_name) {
+    AcceleratorArguments::add_to(command, default_name);
+    ReadArguments::add_to(command);
+}
+
+LoadOptions SceneArguments::load_options() const {
+    LoadOptions options = ReadArguments::load_options();
+    options.compile = compile_options();
     return options;
 }
 

@@ -35,6 +35,9 @@ void check_one_view(const std::string& view, const std::string& camera);
 /// Adds the option --strict (LoadOptions::strict).
 void add_strict(CLI::App& command, bool& strict);
 
+/// Adds the option --quiet.
+void add_quiet(CLI::App& command, bool& quiet);
+
 /// Size limits of pictures read from files.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;
@@ -45,15 +48,9 @@ struct ImageLimitArguments {
     [[nodiscard]] ImageLimits limits() const;
 };
 
-/// The scene argument and the limits for reading it.
-struct SceneArguments {
+/// The scene argument, and what is read of its file.
+struct ReadArguments {
     std::string scene;
-    std::string accelerator;
-    std::string build_quality = "default";
-    bool takes_auto_build = false;  ///< --build may be auto, which is then the default
-    std::uint32_t width = BuildOptions{}.width;
-    std::string csg;
-    bool compact = false, strict = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
     bool takes_time_limit = false;     ///< --time may also be a limit
@@ -63,21 +60,45 @@ struct SceneArguments {
     std::string animation;
     std::vector<std::string> objects;
     std::string view_script;
+    bool strict = false;
     ImageLimitArguments image_limits;
     std::optional<std::uint64_t> max_import_mib;
     int threads = 0;
 
-    void add_to(CLI::App& command, const std::string& default_accelerator);
+    void add_to(CLI::App& command);
     /// The shutter, if given. Throws Error (Usage).
     [[nodiscard]] std::optional<Shutter> shutter_option() const;
     /// Parses a value of --time: a moment; with a unit, a time limit.
     void read_time(const std::string& text);
+    /// The options of reading. Throws Error (Usage).
+    [[nodiscard]] LoadOptions load_options() const;
+};
+
+/// The accelerator, its build and the evaluator of CSG solids.
+struct AcceleratorArguments {
+    std::string accelerator;
+    std::string default_accelerator;  ///< its value without the option
+    std::string build_quality = "default";
+    bool takes_auto_build = false;  ///< --build may be auto, which is then the default
+    std::uint32_t width = BuildOptions{}.width;
+    std::string csg;
+    bool compact = false;
+
+    void add_to(CLI::App& command, const std::string& default_name);
     /// True if the command chooses the quality itself.
     [[nodiscard]] bool chooses_build() const { return takes_auto_build && build_quality == "auto"; }
     /// True if an accelerator or an option of its build is given, other than the default.
     [[nodiscard]] bool names_accelerator() const;
     /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;
+    /// Throws Error (Usage) for an unknown accelerator, quality, width or evaluator.
+    [[nodiscard]] CompileOptions compile_options() const;
+};
+
+/// A scene that is read and built.
+struct SceneArguments : ReadArguments, AcceleratorArguments {
+    void add_to(CLI::App& command, const std::string& default_name);
+    /// Throws Error (Usage) as its parts do.
     [[nodiscard]] LoadOptions load_options() const;
 };
 

@@ -60,16 +60,20 @@ void add_samples(CLI::App& app, int& exit_status) {
     command->add_option("-o,--output", args->output, "SVG to write; - for stdout")
         ->type_name("FILE");
     command->add_option("-n,--points", args->study.points, "Samples of a pixel")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(1u, kMostStudied));
     command
         ->add_option("--sets", args->study.sets, "Pixels in the means; 0: as many as take moments")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(0u, kMostStudiedSets));
     command->add_option("--dimension", args->dimension, "The first of the two that are drawn")
+        ->type_name("D")
         ->capture_default_str()
         ->check(CLI::Range(0, 1 << 16));
     command->add_option("--seed", args->study.seed, "Seed of the samples")
+        ->type_name("N")
         ->capture_default_str()
         ->check(unsigned_number());
     command->callback([args, &exit_status] { exit_status = run_samples(*args); });

@@ -155,24 +155,30 @@ void add_section_options(CLI::App& command, SectionArguments& args) {
     command.add_option("--size", args.size, "Of the picture")
         ->type_name("WxH")
         ->capture_default_str();
-    command.add_option("--camera", args.camera,
-                       "Look through this camera of the scene instead of straight on");
+    command
+        .add_option("--camera", args.camera,
+                    "Look through this camera of the scene instead of straight on")
+        ->type_name("NAME|INDEX");
     command
         .add_option("--svg", args.svg, "Outlines of the cut, a layer for each solid; - for stdout")
         ->type_name("FILE");
     command
         .add_option("--unit", args.svg_options.unit,
                     "What a unit of the scene is in the SVG: mm, cm, in, pt or px")
+        ->type_name("NAME")
         ->capture_default_str();
     command
         .add_option("--tolerance", args.tolerance,
                     "Largest distance of outlines from the curves, at least 1e-9 of the size; "
                     "default: 1e-4 of it")
+        ->type_name("X")
         ->check(number_in(1e-300, 1e300));
     command.add_option("--grid", args.grid, "Cells along a solid; smaller features may be missed")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(4, 8192));
     command.add_option("--error", args.error, "Relative error of the areas to work for")
+        ->type_name("E")
         ->capture_default_str()
         ->check(number_in(1e-13, 1.0));
     command.add_option("--budget", args.budget, "Seconds for the area of each solid at the most")
@@ -181,7 +187,7 @@ void add_section_options(CLI::App& command, SectionArguments& args) {
         ->check(number_in(0.0, 1e9));
     command.add_option("--json", args.json, "Write the areas as JSON; - for stdout")
         ->type_name("FILE");
-    command.add_flag("-q,--quiet", args.quiet, "No warnings");
+    add_quiet(command, args.quiet);
 }
 
 void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved,

@@ -94,7 +94,7 @@ std::shared_ptr<SolidQueryArguments> add_arguments(CLI::App& command, const char
         .add_option(std::string("--") + one + "s", args->file,
                     std::string("File with a ") + one + " in each line; - for standard input")
         ->type_name("FILE");
-    command.add_flag("-q,--quiet", args->quiet, "No warnings");
+    add_quiet(command, args->quiet);
     return args;
 }
 std::shared_ptr<SolidQueryArguments> add_ray_arguments(CLI::App& command) {

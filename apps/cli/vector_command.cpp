@@ -146,8 +146,10 @@ void add_vector(CLI::App& app, int& exit_status) {
         ->add_option("--tolerance", args->tolerance,
                      "Draw exact shapes by triangles within this distance, scene units; with "
                      "--style technical spheres, cylinders and cones have their true outlines")
+        ->type_name("X")
         ->check(positive_number());
     command->add_option("--depth", args->depth, "Recursion depth of mirrors and panes")
+        ->type_name("N")
         ->check(CLI::Range(0, 1000));
     command->add_option("--camera", args->camera, "Camera by name or position")
         ->type_name("NAME|INDEX");
@@ -155,7 +157,7 @@ void add_vector(CLI::App& app, int& exit_status) {
         ->add_option("--view", args->view,
                      "Frame the whole scene from this side instead, degrees; 0,0 is the front")
         ->type_name("AZIMUTH,ELEVATION");
-    command->add_flag("-q,--quiet", args->quiet, "Print errors only");
+    add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] { exit_status = run_vector(*args); });
 }
 

@@ -184,17 +184,20 @@ void add_verify(CLI::App& app, int& exit_status) {
     const auto args = std::make_shared<Arguments>();
     args->scene.add_to(*command, "all");
     command->add_option("--rays", args->verify.rays, "Rays to trace")
+        ->type_name("N")
         ->capture_default_str()
         ->check(number_in(1.0, 1e15));
     command->add_option("--seed", args->verify.seed, "Seed of the rays")
+        ->type_name("N")
         ->capture_default_str()
         ->check(unsigned_number());
-    command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
+    command->add_option("--camera", args->verify.camera, "Camera of the eye rays")
+        ->type_name("NAME|INDEX");
     command->add_flag("--exact,!--no-exact", args->exact,
                       "Trace the exact solids again in numbers of 113 bits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
-    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] {
         Diagnostics diagnostics;
         const SceneDescription description =

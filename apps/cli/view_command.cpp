@@ -49,7 +49,6 @@ int run_view(ViewArguments& args) {
                                 "that is wanted",
                                 args.address));
     }
-    check_accelerator(args.scene.accelerator);
     use_one_heap();  // any thread renders the next frame
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
     // Most errors are found at once; then no page is opened.
@@ -98,6 +97,7 @@ void add_view(CLI::App& app, int& exit_status) {
         ->capture_default_str()
         ->type_name("ADDRESS");
     command->add_option("--port", args->port, "Port to listen at; 0: any that is free")
+        ->type_name("N")
         ->capture_default_str()
         ->check(CLI::Range(0, 65535));
     command->add_flag("--allow-remote", args->allow_remote,

@@ -34,6 +34,16 @@ class CommandLine(CommandLineCase):
             self.assertEqual(result.stdout, run(*command, "--help").stdout)
         self.assertRegex(run("help", "paint").stderr, "'paint'.*render, convert")
 
+    def test_help_names_every_value_and_says_the_same_of_quiet(self):
+        commands = re.findall(r"^  (\w+) ", run("--help").stdout.partition("Subcommands:")[2], re.MULTILINE)
+        self.assertGreater(len(commands), 15)
+        quiet = set()
+        for command in commands:
+            text = run(command, "--help").stdout
+            self.assertEqual(re.findall(r"^  [-\w,]+ (?:TEXT|U?INT|FLOAT)\b.*", text, re.MULTILINE), [], command)
+            quiet.update(re.findall(r"-q,--quiet +(.*)", text))
+        self.assertEqual(quiet, {"No progress, no warnings, no summary"})
+
     def test_an_option_given_twice_is_said_to_be(self):
         result = self.render("-t", "1", "-t", "2")
         self.assertEqual(result.returncode, 2)
@@ -92,6 +102,11 @@ class CommandLine(CommandLineCase):
         picture = self.path("out.png")
         for arguments in ([], ["paint"], ["render"], ["render", self.scene], ["render", self.scene, "-o", "x.gif"],
                           ["render", self.scene, "-o", picture, "--accelerator", "octopus"],
+                          ["render", self.scene, "-o", picture, "--csg", "octopus"],
+                          ["verify", self.scene, "--accelerator", "octopus"], ["info", self.scene, "--csg", "octopus"],
+                          ["vector", self.scene, "-o", self.path("out.svg"), "--accelerator", "octopus"],
+                          ["convert", self.scene, self.path("out.ply"), "--accelerator", "wide_bvh"],
+                          ["convert", self.scene, self.path("out.ply"), "--csg", "roth"],
                           ["render", self.scene, "-o", picture, "--renderer", "magic"],
                           ["render", self.scene, "-o", picture, "--size", "10"],
                           ["render", self.scene, "-o", picture, "--size", "0x10"],
@@ -101,7 +116,7 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--crop", "5,5,5,9"],
                           ["render", self.scene, "-o", picture, "--camera", "nobody"],
                           ["render", self.scene, "-o", picture, "--encoding", "gamma"],
-                          ["render", self.scene, "-o", picture, "--tonemap", "filmic"],
+                          ["render", self.path("none.alhazen"), "-o", picture, "--tonemap", "filmic"],
                           ["render", self.scene, "-o", picture, "--exposure", "nan"],
                           ["render", self.scene, "-o", picture, "--white-balance", "0"],
                           ["render", self.scene, "-o", picture, "--environment", "studio"],

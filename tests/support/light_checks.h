@@ -87,9 +87,9 @@ struct DirectionCone {
 /// The chi-square test of `draw` in bins of equal solid angle: the probability of a sum at least as
 /// large by chance. Draws outside the cone and empty draws are one more bin.
 inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
-                           const DirectionCone& cone, std::uint64_t seed, int draws = 10000,
-                           int rays = 10) {
-    constexpr int kBins = 12;
+                           const DirectionCone& cone, std::uint64_t seed) {
+    constexpr int kBins = 12, kDraws = 10000;
+    constexpr int kRays = 10;  // along each side of a bin
     const Vec3 x = perpendicular(cone.axis), y = cross(cone.axis, x);
     const auto direction = [&](double u, double v) {
         const double z = 1.0 - u * (1.0 - cone.cosine), angle = 2.0 * kPi * v;
@@ -98,7 +98,7 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
     };
     std::vector<double> expected(kBins * kBins + 1, 0.0), found(kBins * kBins + 1, 0.0);
     // Integrates by midpoints of cells; if neighbours differ much, of smaller cells.
-    const int side = kBins * rays;
+    const int side = kBins * kRays;
     std::vector<double> coarse(std::size_t(side * side));
     const auto at_cell = [&](double i, double j) {
         return density_along(scene, lights, at, direction(i / side, j / side));
@@ -129,13 +129,13 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
                             (kFine * kFine);
                 }
             }
-            expected[std::size_t(i / rays * kBins + j / rays)] += draws * solid * mean;
+            expected[std::size_t(i / kRays * kBins + j / kRays)] += kDraws * solid * mean;
             rest -= solid * mean;
         }
     }
-    expected.back() = draws * std::max(0.0, rest);
+    expected.back() = kDraws * std::max(0.0, rest);
     RandomStream random(seed);
-    for (int i = 0; i < draws; ++i) {
+    for (int i = 0; i < kDraws; ++i) {
         const double choice = random.uniform();
         const Vec2 u{random.uniform(), random.uniform()};
         const LightDraw draw = lights.draw(at, choice, u, kColorChannels);
@@ -179,8 +179,8 @@ inline double sidak_level(int tests) {
 
 /// The irradiance: mean of radiance * cosine / density over unoccluded draws.
 inline Spectrum mean_irradiance(const Scene& scene, const Illumination& lights, const LitPoint& at,
-                                int draws, std::uint64_t seed = 3) {
-    RandomStream random(seed);
+                                int draws) {
+    RandomStream random(3);
     Spectrum sum;
     for (int i = 0; i < draws; ++i) {
         const double choice = (i + random.uniform()) / draws;

@@ -12,7 +12,7 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/explain/spans/part_of_primitive.h"
 #include "alhazen/explain/tree/ray_tree_recorder.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
@@ -21,6 +21,11 @@
 namespace alhazen {
 
 namespace {
+
+/// Limit of the depth of the tree.
+constexpr int kMostDepth = 64;
+/// Limit of the recorded steps of the accelerator.
+constexpr std::size_t kMostSteps = 5'000;
 
 /// The samples of one pixel of a job.
 class PixelSamples {
@@ -99,7 +104,7 @@ bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNo
 void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const ExplainOptions& options,
                    int& depth, Explanation& e) {
     const int wished = depth;
-    depth = std::min(wished, options.most_depth);
+    depth = std::min(wished, kMostDepth);
     if (trace_tree(job, ray, options.most_rays, e.tree)) {
         if (!ends_by_depth(e.tree)) depth = wished;
         return;
@@ -129,7 +134,7 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
     e.max_depth = depth;
     RayCounters counters;
     RecursiveEstimator<NoRandomness> estimator(job, 1, counters);
-    BoxFilter filter;
+    FiniteMean mean;
     for (std::size_t i = 0; i < samples.rays().size() && !job.stop_requested(); ++i) {
         Rgb radiance;
         if (i == chosen) {
@@ -137,10 +142,10 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
         } else {
             estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
         }
-        filter.add(radiance);
+        mean.add(radiance);
         e.samples.push_back({samples.place(i), radiance});
     }
-    e.pixel = filter.value();
+    e.pixel = mean.value();
 }
 
 AcceleratorWork work_of(const std::string& accelerator, const Scene& scene, const Ray& ray) {
@@ -167,9 +172,9 @@ void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options
     const PrimitiveTable& table = loaded.scene.aggregate->primitives();
     e.traversal = trace_traversal(loaded.scene, accelerator, ray);
     std::vector<TraversalStep>& steps = e.traversal.steps;
-    if (steps.size() > options.most_steps) {
-        e.steps_left_out = steps.size() - options.most_steps;
-        steps.resize(options.most_steps);
+    if (steps.size() > kMostSteps) {
+        e.steps_left_out = steps.size() - kMostSteps;
+        steps.resize(kMostSteps);
     }
     for (const TraversalStep& step : steps) {
         e.candidates.push_back(

@@ -41,8 +41,6 @@ struct ExplainOptions {
     /// Replaces the scene of the file, with the same geometry (session/lighting.h); null: none.
     const Scene* scene = nullptr;
     std::size_t most_rays = 10'000;  ///< limit of the tree, shadow rays included
-    int most_depth = 64;             ///< limit of the tree
-    std::size_t most_steps = 5'000;  ///< limit of the recorded steps of the accelerator
     bool with_picture = true;        ///< adds a small picture, and scene points around the rays
 };
 

@@ -50,11 +50,10 @@ struct LightRay {
     double place_density = 0;      ///< by area, with the choice; of point lights the choice alone
     double direction_density = 0;  ///< by solid angle; of directional lights: 1
     bool singular_place = false;   ///< from a point light
-    bool singular_direction = false;  ///< from a directional light
-    bool infinite = false;            ///< from the environment or a directional light: the origin
-                                      ///< lies on a disc perpendicular to the direction, in front
-                                      ///< of all bounded geometry
-    bool is_hit = false;              ///< rays can hit the light
+    bool infinite = false;         ///< from the environment or a directional light: the origin
+                                   ///< lies on a disc perpendicular to the direction, in front
+                                   ///< of all bounded geometry
+    bool is_hit = false;           ///< rays can hit the light
     PlaceInLight place;
 };
 
@@ -64,7 +63,6 @@ enum class LightChoice : std::uint8_t {
     Power,    ///< by largest intensity
     Tree,     ///< by an estimate of the light that arrives (light_tree.h)
 };
-inline constexpr const char* kLightChoiceNames[] = {"uniform", "power", "tree"};
 
 struct IlluminationOptions {
     LightChoice choice = LightChoice::Tree;

@@ -142,7 +142,6 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
             out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);
             out.radiance = waves.emission(kPi * sun.color);
             out.direction_density = 1.0;
-            out.singular_direction = true;
         }
         out.normal = out.ray.direction;
         return out;

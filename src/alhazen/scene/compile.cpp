@@ -123,10 +123,4 @@ Scene compile(const SceneDescription& description, const CompileOptions& options
     return scene;
 }
 
-Scene compile_taking_meshes(SceneDescription& description, const CompileOptions& options) {
-    Scene scene = compile_without_geometry(description);
-    build_aggregate_taking_meshes(description, options, scene);
-    return scene;
-}
-
 }  // namespace alhazen

@@ -128,11 +128,8 @@ struct CompileOptions {
 void build_aggregate(const SceneDescription& description, const CompileOptions& options,
                      Scene& scene);
 
-/// As `compile` and `build_aggregate`, for callers that no longer need the meshes of `description`:
-/// meshes that are placed once, by a transform, are moved instead of copied and are null
-/// afterwards.
-[[nodiscard]] Scene compile_taking_meshes(SceneDescription& description,
-                                          const CompileOptions& options = {});
+/// As `build_aggregate`, for callers that no longer need the meshes of `description`: meshes that
+/// are placed once, by a transform, are moved instead of copied and are null afterwards.
 void build_aggregate_taking_meshes(SceneDescription& description, const CompileOptions& options,
                                    Scene& scene);
 

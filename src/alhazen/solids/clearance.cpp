@@ -140,7 +140,6 @@ class SlabSearch {
         if (!(best_ > 0)) return;
         // The computed normal is unit within rounding.
         found.at_least = best_ * (1 - 1e-15);
-        found.slab_normal = best_normal_;
     }
 
   private:

@@ -25,7 +25,6 @@ struct Clearance {
     double at_least = 0, at_most = 0;
     Vec3 on_a, on_b;   ///< points at distance `at_most`
     double error = 0;  ///< bound of each point's distance from its surface
-    Vec3 slab_normal;  ///< normal of the slab of width `at_least`; zero without a slab
 };
 
 /// The clearance of `a` and `b`. Throws Error (Usage) for unbounded solids.

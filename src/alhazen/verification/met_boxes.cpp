@@ -18,7 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Vectors of floats, at most a group wide.
 using MetTag = hn::CappedTag<float, BoxList::kGroup>;
-using MetLanes = hn::Vec<MetTag>;
 
 std::size_t met_in_lanes(const BoxList& boxes, const BoxLine& line, std::size_t begin,
                          std::size_t end, std::uint32_t* met) {

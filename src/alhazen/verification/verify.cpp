@@ -29,7 +29,7 @@ std::uint64_t affordable_rays(std::uint64_t rays, std::uint64_t primitives,
 
 /// Counts the crossings of whole lines with one closed surface.
 void count_crossings(const Aggregate& surface, VerifyRays& rays, std::uint64_t lines,
-                     const VerifyOptions& options, SharedProgress& progress, VerifyReport& report) {
+                     SharedProgress& progress, VerifyReport& report) {
     constexpr std::size_t kLinesAtOnce = 1 << 16;
     ++report.closed_surfaces;
     report.parity_lines += lines;
@@ -54,7 +54,7 @@ void count_crossings(const Aggregate& surface, VerifyRays& rays, std::uint64_t l
         for (std::size_t i = 0; i < samples.size(); ++i) {
             if (odd[i].empty()) continue;
             ++report.odd_crossings;
-            if (report.reported.size() >= options.max_reported) continue;
+            if (report.reported.size() >= kMostReported) continue;
             report.reported.push_back({samples[i].kind, "parity", samples[i].ray, std::move(odd[i]),
                                        "an even number of crossings"});
         }
@@ -158,7 +158,7 @@ void count_all_crossings(const SceneDescription& description, const Scene& scene
         const std::uint64_t own = lines_of(surface);
         const auto count = [&](const Aggregate& aggregate) {
             VerifyRays rays(aggregate.box(), nullptr, aggregate.primitives(), options.seed + 1);
-            count_crossings(aggregate, rays, own, options, progress, report);
+            count_crossings(aggregate, rays, own, progress, report);
         };
         if (surface.is_whole_scene) {
             count(*scene.aggregate);

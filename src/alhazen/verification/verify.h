@@ -20,7 +20,6 @@ struct VerifyOptions {
     std::uint64_t rays = 20000;      ///< in total, over all kinds
     std::uint64_t seed = 1;
     std::string camera;
-    std::size_t max_reported = 20;
     ProgressSink* progress = nullptr;
     /// Limit of the primitive tests of a query of accelerator `list`; further rays are left out.
     std::uint64_t most_list_tests = 100'000'000;
@@ -52,6 +51,9 @@ struct Disagreement {
     std::string found, expected;
     std::string query_path{};  ///< one of kQueryPathNames; empty if no aggregates are compared
 };
+
+/// Disagreements of a report at most; the others are counted.
+inline constexpr std::size_t kMostReported = 20;
 
 struct VerifyReport {
     std::string accelerator;

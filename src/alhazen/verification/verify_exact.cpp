@@ -41,8 +41,7 @@ std::string describe_crossings(const ExactCrossings& crossings) {
 
 class Checker {
   public:
-    Checker(const ExactSolid& solid, const VerifyOptions& options, ExactReport& report)
-        : solid_(solid), options_(options), report_(report) {
+    Checker(const ExactSolid& solid, ExactReport& report) : solid_(solid), report_(report) {
         const Box3 box = solid.aggregate->box();
         reach_ = box.bounded() ? length(Vec3{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
                                              std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
@@ -183,14 +182,13 @@ class Checker {
     void disagree(const VerifyRays::Sample& sample, const char* query, std::string found,
                   std::string expected) {
         ++report_.disagreements;
-        if (report_.reported.size() < options_.max_reported) {
+        if (report_.reported.size() < kMostReported) {
             report_.reported.push_back(
                 {sample.kind, query, sample.ray, std::move(found), std::move(expected)});
         }
     }
 
     const ExactSolid& solid_;
-    const VerifyOptions& options_;
     ExactReport& report_;
     std::vector<Hit> hits_;
     double reach_ = 0;
@@ -230,7 +228,7 @@ class ExactRays {
 };
 
 /// Adds the results of some rays of one solid.
-void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
+void add(ExactReport part, ExactReport& report) {
     report.rays += part.rays;
     report.crossings += part.crossings;
     report.grazing += part.grazing;
@@ -238,7 +236,7 @@ void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
     report.worst_crossing = std::max(report.worst_crossing, part.worst_crossing);
     report.worst_point = std::max(report.worst_point, part.worst_point);
     for (Disagreement& one : part.reported) {
-        if (report.reported.size() < options.max_reported) {
+        if (report.reported.size() < kMostReported) {
             report.reported.push_back(std::move(one));
         }
     }
@@ -246,7 +244,7 @@ void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
 
 /// Traces `count` rays at one solid on all cores; the report does not depend on their number.
 void check_solid(const ExactSolid& solid, std::uint64_t seed, std::uint64_t count,
-                 const VerifyOptions& options, SharedProgress& progress, ExactReport& report) {
+                 SharedProgress& progress, ExactReport& report) {
     constexpr std::size_t kRaysOfPart = 64, kMostPartsAtOnce = 256;
     ExactRays rays(*solid.aggregate, seed);
     std::vector<VerifyRays::Sample> samples;
@@ -258,14 +256,14 @@ void check_solid(const ExactSolid& solid, std::uint64_t seed, std::uint64_t coun
         std::vector<ExactReport> parts((samples.size() + kRaysOfPart - 1) / kRaysOfPart);
         parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t part = begin; part < end; ++part) {
-                Checker checker(solid, options, parts[part]);
+                Checker checker(solid, parts[part]);
                 const std::size_t first = part * kRaysOfPart;
                 const std::size_t last = std::min(first + kRaysOfPart, samples.size());
                 for (std::size_t i = first; i < last; ++i) checker.check(samples[i]);
                 progress.add(last - first);
             }
         });
-        for (ExactReport& part : parts) add(std::move(part), options, report);
+        for (ExactReport& part : parts) add(std::move(part), report);
     }
 }
 
@@ -284,7 +282,7 @@ ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& o
     SharedProgress progress(options.progress, "exact", count * share);
     for (std::size_t i = 0; i < count; ++i) {
         const ExactSolid& solid = *checked[i * checked.size() / count];
-        check_solid(solid, options.seed + 7 * i, share, options, progress, report);
+        check_solid(solid, options.seed + 7 * i, share, progress, report);
     }
     return report;
 }

@@ -72,7 +72,6 @@ class QueryPathComparison::BlockComparison {
         : tested_(all.tested_),
           brute_(all.brute_),
           masked_(all.masked_),
-          most_reported_(all.options_.max_reported),
           samples_(block.samples),
           masks_(block.masks),
           sets_(block.sets),
@@ -108,7 +107,6 @@ class QueryPathComparison::BlockComparison {
     const Aggregate& tested_;
     const BruteForce& brute_;
     bool masked_;
-    std::size_t most_reported_;
     VerifyReport report_;
 
     // [ray] of the block.
@@ -161,7 +159,7 @@ void QueryPathComparison::add(VerifyReport block) {
         report_.query_paths[i].disagreements += block.query_paths[i].disagreements;
     }
     for (Disagreement& one : block.reported) {
-        if (report_.reported.size() < options_.max_reported) {
+        if (report_.reported.size() < kMostReported) {
             report_.reported.push_back(std::move(one));
         }
     }
@@ -328,7 +326,7 @@ void QueryPathComparison::BlockComparison::disagree(std::size_t i, QueryPath pat
                                                     std::string expected) {
     ++report_.disagreements;
     ++counts(path).disagreements;
-    if (report_.reported.size() >= most_reported_) return;
+    if (report_.reported.size() >= kMostReported) return;
     const VerifyRays::Sample& sample = samples_[i];
     const std::string seen_by = name_of(masks_[i]);
     report_.reported.push_back(

@@ -43,18 +43,39 @@ TEST(ToneMapping, CurvesRiseFromBlackToWhite) {
                 1e-3);
 }
 
+/// The linear colour, of luminance 1, of a chromaticity.
+Rgb color_of(double x, double y) {
+    const double r = x / y, b = (1 - x - y) / y;
+    return {3.2409699 * r - 1.5373832 - 0.4986108 * b, -0.9692436 * r + 1.8759675 + 0.0415551 * b,
+            0.0556301 * r - 0.2039770 + 1.0569715 * b};
+}
+
+/// The standard illuminants of CIE 15:2004, and the black body of 2000 K (Wyszecki and Stiles,
+/// "Color Science", 1982, table 1(3.11)).
 TEST(ToneMapping, TheLightOfATemperatureBecomesWhite) {
-    for (const double kelvin : {1700.0, 2856.0, 4000.0, 5003.0, 6504.0, 12000.0}) {
-        const Rgb light = color_of_temperature(kelvin);
-        const Rgb shown = ToneMapper{ToneMapping{.kelvin = kelvin}}(light);
-        EXPECT_NEAR(shown.r, 1.0, 1e-4) << kelvin;
-        EXPECT_NEAR(shown.g, 1.0, 1e-4) << kelvin;
-        EXPECT_NEAR(shown.b, 1.0, 1e-4) << kelvin;
+    struct Light {
+        double kelvin, x, y, within;
+    };
+    for (const Light& light : {Light{2000, 0.52669, 0.41331, 5e-3},
+                               {2856, 0.44757, 0.40745, 5e-3},
+                               {5003, 0.34567, 0.35850, 1e-3},
+                               {5503, 0.33242, 0.34743, 1e-3},
+                               {6504, 0.31271, 0.32902, 1e-3},
+                               {7504, 0.29902, 0.31485, 1e-3}}) {
+        const ToneMapper map{ToneMapping{.kelvin = light.kelvin}};
+        const Rgb shown = map(color_of(light.x, light.y));
+        EXPECT_NEAR(shown.r, 1.0, light.within) << light.kelvin;
+        EXPECT_NEAR(shown.g, 1.0, light.within) << light.kelvin;
+        EXPECT_NEAR(shown.b, 1.0, light.within) << light.kelvin;
     }
-    // D65 is the white of sRGB.
-    EXPECT_NEAR(color_of_temperature(6504).r, 1.0, 2e-3);
-    EXPECT_NEAR(color_of_temperature(6504).b, 1.0, 2e-3);
-    EXPECT_GT(color_of_temperature(2856).r, 2 * color_of_temperature(2856).b);
+}
+
+/// D65 is the white of sRGB.
+TEST(ToneMapping, TheWhiteBalanceOfDaylightChangesLittle) {
+    const Rgb shown = ToneMapper{ToneMapping{.kelvin = 6504}}({1, 1, 1});
+    EXPECT_NEAR(shown.r, 1.0, 2e-3);
+    EXPECT_NEAR(shown.g, 1.0, 2e-3);
+    EXPECT_NEAR(shown.b, 1.0, 2e-3);
 }
 
 }  // namespace

@@ -441,11 +441,14 @@ struct Blockers {
           job{.scene = scene, .camera = camera, .description = &maker.description()},
           tracer(job, geometry, false, counters) {}
 
+    /// Share of a sphere of light that is seen from outside of it.
     double share(const Vec3& point, const Vec3& light, double radius) {
+        const double distance = length(light - point);
+        const double spread = radius / std::sqrt((distance - radius) * (distance + radius));
         ConeStart start;
         start.kind = RayKind::Shadow;
-        start.range.z_max = length(light - point);
-        return tracer.let_through(cone_to_light(point, light, radius), start).r;
+        start.range.z_max = distance;
+        return tracer.let_through({point, (light - point) / distance, 0.0, spread}, start).r;
     }
 };
 

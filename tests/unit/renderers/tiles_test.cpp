@@ -5,7 +5,7 @@
 #include <random>
 
 #include "alhazen/cameras/eye_rays.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -190,15 +190,15 @@ TEST(TiledRenderer, AStopLeavesTheTilesThatAreNotDoneBlack) {
     EXPECT_EQ(done, 2u);
 }
 
-TEST(BoxFilter, IsTheMeanOfTheFiniteSamples) {
-    BoxFilter filter;
-    EXPECT_EQ(filter.value(), Rgb{});
-    EXPECT_TRUE(filter.add({1, 2, 3}));
-    EXPECT_EQ(filter.value(), (Rgb{1, 2, 3}));
-    EXPECT_FALSE(filter.add({0, std::numeric_limits<double>::quiet_NaN(), 0}));
-    EXPECT_FALSE(filter.add({std::numeric_limits<double>::infinity(), 0, 0}));
-    EXPECT_TRUE(filter.add({3, 0, 1}));
-    EXPECT_EQ(filter.value(), (Rgb{2, 1, 2}));
+TEST(FiniteMean, IsTheMeanOfTheFiniteSamples) {
+    FiniteMean mean;
+    EXPECT_EQ(mean.value(), Rgb{});
+    EXPECT_TRUE(mean.add({1, 2, 3}));
+    EXPECT_EQ(mean.value(), (Rgb{1, 2, 3}));
+    EXPECT_FALSE(mean.add({0, std::numeric_limits<double>::quiet_NaN(), 0}));
+    EXPECT_FALSE(mean.add({std::numeric_limits<double>::infinity(), 0, 0}));
+    EXPECT_TRUE(mean.add({3, 0, 1}));
+    EXPECT_EQ(mean.value(), (Rgb{2, 1, 2}));
 }
 
 TEST(EyeRays, AreThoseOfTheFormulaOfTheirCamera) {

@@ -29,7 +29,8 @@ TEST(CompileTakingMeshes, OnlyMovesWhatIsPlacedOnceAndGivesTheSamePicture) {
 
     SceneDescription& d = maker.description();
     const std::shared_ptr<TriangleMesh> held = d.meshes[3].mesh;
-    const Scene taken = compile_taking_meshes(d, {});
+    Scene taken = compile_without_geometry(d);
+    build_aggregate_taking_meshes(d, {}, taken);
     EXPECT_EQ(d.meshes[0].mesh, nullptr);
     EXPECT_NE(d.meshes[1].mesh, nullptr);
     EXPECT_NE(d.meshes[2].mesh, nullptr);

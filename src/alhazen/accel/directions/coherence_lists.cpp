@@ -152,8 +152,6 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
         return nullptr;
     }
     used_ += bytes;
-    ++lists_made_;
-    candidates_made_ += made->size();
     known = made_lists_.emplace_back(std::move(made)).get();
     slot->store(known, std::memory_order_release);
     return known;

@@ -55,9 +55,6 @@ class CoherenceLists {
     [[nodiscard]] const List* find(std::uint32_t origin, const Vec3& direction) const;
 
     [[nodiscard]] std::size_t memory_bytes() const { return used_; }
-    /// Numbers of lists and candidates made so far.
-    [[nodiscard]] std::size_t lists_made() const { return lists_made_; }
-    [[nodiscard]] std::size_t candidates_made() const { return candidates_made_; }
 
   private:
     using Slot = std::atomic<const List*>;
@@ -90,7 +87,7 @@ class CoherenceLists {
     mutable std::vector<std::unique_ptr<Blocks[]>> made_origins_;
     mutable std::vector<std::unique_ptr<Block[]>> made_blocks_;
     mutable std::vector<std::unique_ptr<const List>> made_lists_;
-    mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
+    mutable std::atomic<std::size_t> used_{0};
     mutable std::atomic<bool> full_{false};  ///< memory is used up: no further lists are made
 };
 

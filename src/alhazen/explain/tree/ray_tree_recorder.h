@@ -39,8 +39,6 @@ class RayTreeRecorder : public NoRandomness {
         enough_ = &enough;
         stop_ = stop;
     }
-    /// True if there were more rays than the limit, shadow rays included.
-    [[nodiscard]] bool has_too_many() const { return count_ > most_; }
 
     /// Moves the rays of the last call of `trace` out.
     [[nodiscard]] std::vector<RayNode> take();

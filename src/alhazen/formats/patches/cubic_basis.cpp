@@ -2,7 +2,7 @@
 
 namespace alhazen {
 
-CubicBasis::CubicBasis() : step_(3) {
+CubicBasis::CubicBasis() {
     for (std::size_t k = 0; k < 4; ++k) factors_[5 * k] = 1.0;
 }
 
@@ -20,7 +20,6 @@ CubicBasis::CubicBasis(const std::array<double, 16>& m) : divisor_(3.0) {
 std::optional<CubicBasis> CubicBasis::named(std::string_view name) {
     CubicBasis basis;
     if (name == "bezier") return basis;
-    basis.step_ = 1;
     if (name == "b-spline") {
         basis.factors_ = {1, 4, 1, 0, 0, 4, 2, 0, 0, 2, 4, 0, 0, 1, 4, 1};
         basis.divisor_ = 6;
@@ -30,11 +29,9 @@ std::optional<CubicBasis> CubicBasis::named(std::string_view name) {
     } else if (name == "hermite") {
         basis.factors_ = {3, 0, 0, 0, 3, 1, 0, 0, 0, 0, 3, -1, 0, 0, 3, 0};
         basis.divisor_ = 3;
-        basis.step_ = 2;
     } else if (name == "power") {
         basis.factors_ = {0, 0, 0, 3, 0, 0, 1, 3, 0, 1, 2, 3, 3, 3, 3, 3};
         basis.divisor_ = 3;
-        basis.step_ = 4;
     } else {
         return std::nullopt;
     }

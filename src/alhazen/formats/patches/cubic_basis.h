@@ -1,7 +1,7 @@
 #pragma once
 /// Bases of cubic curves, and the Bezier points of a segment.
 ///
-/// Source: Pixar, "The RenderMan Interface", version 3.2, 2000, section 5.1 (bases and steps);
+/// Source: Pixar, "The RenderMan Interface", version 3.2, 2000, section 5.1 (bases);
 /// Farin, "Curves and Surfaces for CAGD", chapters 4 to 8.
 /// Conventions: a basis matrix is row-major, with rows for t^3, t^2, t, 1 and columns for the four
 /// control points. Bezier points are sums of integer multiples of control points, divided once: two
@@ -17,15 +17,12 @@ namespace alhazen {
 
 class CubicBasis {
   public:
-    /// The Bezier basis, step 3.
+    /// The Bezier basis.
     CubicBasis();
     /// The basis of any matrix.
     explicit CubicBasis(const std::array<double, 16>& matrix);
     /// The basis of a name: bezier, b-spline, catmull-rom, hermite, power, cardinal (tension 1/2).
     [[nodiscard]] static std::optional<CubicBasis> named(std::string_view name);
-    /// Number of control points from one segment to the next: 3 for bezier, 2 for hermite, 4 for
-    /// power, otherwise 1.
-    [[nodiscard]] int usual_step() const { return step_; }
 
     /// The Bezier points of the segment of four control points.
     [[nodiscard]] std::array<HomogeneousPoint, 4> bezier(
@@ -34,7 +31,6 @@ class CubicBasis {
   private:
     std::array<double, 16> factors_{};  ///< [Bezier point][control point], times divisor_
     double divisor_ = 1.0;
-    int step_ = 1;
 };
 
 /// The Bezier net of 16 control points, u-major.

@@ -25,15 +25,13 @@ namespace alhazen {
 
 struct FacetTreeOptions {
     std::uint32_t candidates = 8;  ///< number of polygon planes rated at each node
-    double split_cost = 4;         ///< cost of a cut polygon, in polygons out of balance
 };
 
 struct FacetTreeReport {
     std::uint64_t polygons = 0;  ///< input polygons
     std::uint64_t splits = 0;    ///< divisions of a polygon into two pieces
     std::uint64_t pieces = 0;    ///< pieces in the tree
-    std::uint64_t nodes = 0, hull_corners = 0;
-    std::uint64_t free_planes = 0;  ///< nodes whose plane holds no polygon
+    std::uint64_t nodes = 0;
     std::uint32_t depth = 0;
 };
 

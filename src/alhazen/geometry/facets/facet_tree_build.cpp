@@ -16,6 +16,8 @@ constexpr std::size_t kManyOnOneSide = 48;
 /// Number of polygons of one plane above which they form a tree of their own.
 constexpr std::size_t kManyInPlane = 6;
 constexpr std::size_t kHullCorners = 32;
+/// Cost of a cut polygon, in polygons out of balance.
+constexpr double kSplitCost = 4;
 
 enum class PlaneSide : std::uint8_t { In, Before, Behind, Both };
 
@@ -55,7 +57,6 @@ class FacetTreeBuilder {
         merge_hulls();
         tree_.report_.nodes = tree_.nodes_.size();
         tree_.report_.pieces = tree_.pieces_.size();
-        tree_.report_.hull_corners = tree_.hull_points_.size();
     }
 
   private:
@@ -88,15 +89,12 @@ class FacetTreeBuilder {
             before += side == PlaneSide::Before || side == PlaneSide::Both;
             behind += side == PlaneSide::Behind || side == PlaneSide::Both;
         }
-        return {plane, (options_.split_cost * splits + std::abs(before - behind)) / counted,
+        return {plane, (kSplitCost * splits + std::abs(before - behind)) / counted,
                 std::min(before, behind) / counted};
     }
 
-    /// Tries the axis-aligned planes through the middle of the polygons; true if one divides them
-    /// better.
-    [[nodiscard]] bool try_free_planes(std::span<const FacetPiece> polygons,
-                                       PlaneRating& best) const {
-        bool found = false;
+    /// Takes an axis-aligned plane through the middle of the polygons if it divides them better.
+    void try_free_planes(std::span<const FacetPiece> polygons, PlaneRating& best) const {
         std::vector<double> middles;
         for (int axis = 0; axis < 3; ++axis) {
             middles.clear();
@@ -111,12 +109,10 @@ class FacetTreeBuilder {
             const PlaneRating rating = rate(plane, polygons);
             if (rating.cost >= best.cost || rating.least_side <= best.least_side) continue;
             best = rating;
-            found = true;
         }
-        return found;
     }
 
-    [[nodiscard]] PlaneRating choose(std::span<const FacetPiece> polygons) {
+    [[nodiscard]] PlaneRating choose(std::span<const FacetPiece> polygons) const {
         const std::size_t count =
             std::min<std::size_t>(std::max(options_.candidates, 1u), polygons.size());
         PlaneRating best;
@@ -126,7 +122,7 @@ class FacetTreeBuilder {
             if (k == 0 || rating.cost < best.cost) best = rating;
         }
         if (polygons.size() >= kManyOnOneSide && best.least_side < 0.125) {
-            tree_.report_.free_planes += try_free_planes(polygons, best);
+            try_free_planes(polygons, best);
         }
         return best;
     }

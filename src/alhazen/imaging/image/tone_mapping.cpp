@@ -85,10 +85,6 @@ Rgb agx(const Rgb& c) {
 
 }  // namespace
 
-Rgb color_of_temperature(double kelvin) {
-    return times(kRgbFromXyz, xyz_of_temperature(kelvin));
-}
-
 ToneMapper::ToneMapper(const ToneMapping& mapping)
     : mapping_(mapping), scale_(std::exp2(mapping.stops)) {
     if (!(mapping.kelvin > 0.0)) return;

@@ -44,7 +44,4 @@ class ToneMapper {
     Rgb balance_[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< rows
 };
 
-/// The linear colour, of luminance 1, of a light of that temperature.
-[[nodiscard]] Rgb color_of_temperature(double kelvin);
-
 }  // namespace alhazen

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "alhazen/imaging/film/filter_integral.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/beam_tracing/beam_shading.h"
 #include "alhazen/renderers/beam_tracing/pixel_quadrature.h"
 #include "alhazen/renderers/core/antialias_settings.h"
@@ -64,9 +64,9 @@ class BeamFilterRenderer final : public TileRenderer {
         for (std::size_t n = 0; n < count; ++n) {
             const int i = tile.x0 + static_cast<int>(n % columns_);
             const int j = tile.y0 + static_cast<int>(n / columns_);
-            BoxFilter filter;
-            counters.non_finite += !filter.add(sums_[n]);
-            film.set(i, j, filter.value());
+            FiniteMean mean;
+            counters.non_finite += !mean.add(sums_[n]);
+            film.set(i, j, mean.value());
             if (layers) write_geometry(*job_.aovs, i, j, geometry_[n]);
             if (job_.aovs) job_.aovs->set(AovKind::RefractionError, i, j, {&errors_[n], 1});
         }

@@ -4,7 +4,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/stopwatch.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/beam_tracing/beam_filtering.h"
 #include "alhazen/renderers/beam_tracing/beam_pixels.h"
 #include "alhazen/renderers/beam_tracing/beam_raster.h"
@@ -42,9 +42,9 @@ class BeamTileRenderer final : public TileRenderer {
             for (const std::uint32_t k : bands_.pieces_of(j)) add(tree_.pieces[k], tile, j);
             for (std::size_t c = 0; c < columns; ++c) {
                 const int i = tile.x0 + static_cast<int>(c);
-                BoxFilter filter;
-                counters.non_finite += !filter.add(row_[c]);
-                film.set(i, j, filter.value());
+                FiniteMean mean;
+                counters.non_finite += !mean.add(row_[c]);
+                film.set(i, j, mean.value());
                 if (layers) write_geometry(*job_.aovs, i, j, geometry_[c]);
                 if (job_.aovs) job_.aovs->set(AovKind::RefractionError, i, j, {&errors_[c], 1});
             }

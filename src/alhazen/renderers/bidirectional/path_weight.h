@@ -35,7 +35,8 @@ struct WholePath {
 
 /// Weight of strategy `s`; the weights of all strategies of a path sum to 1.
 [[nodiscard]] double path_weight(const WholePath& path, int s);
-/// Weight of the path merged at vertex `k`, which must not be singular.
+/// Weight of the path merged at vertex `k`, which must not be singular: for tests of the sums that
+/// renderers use (vcm/merge_sums.h).
 [[nodiscard]] double merged_path_weight(const WholePath& path, int k);
 
 }  // namespace alhazen

@@ -57,14 +57,6 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
 
 }  // namespace
 
-ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius) {
-    const Vec3 offset = center - point;
-    const double d = length(offset);
-    const double spread =
-        d > radius ? radius / std::sqrt((d - radius) * (d + radius)) : kWidestSpread;
-    return {point, offset / d, 0.0, std::min(spread, kWidestSpread)};
-}
-
 Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size_t number,
                           const LightSample& light, double light_radius) {
     if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};

@@ -62,9 +62,6 @@ class ConeWatcher {
     return {cone.origin, cone.axis, 0.5 * cone.radius, 0.5 * cone.spread};
 }
 
-/// The cone from a point that encloses a spherical light.
-[[nodiscard]] ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius);
-
 class ConeTracer {
   public:
     /// All arguments must outlive the object.

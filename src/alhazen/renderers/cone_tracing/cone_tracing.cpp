@@ -2,7 +2,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/pixel_cones.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/renderers/core/tiles.h"
@@ -25,7 +25,7 @@ class ConeTileRenderer final : public TileRenderer {
         const bool layers = job_.aovs != nullptr && job_.aovs->wanted().has_geometry();
         for (int j = tile.y0; j < tile.y1; ++j) {
             for (int i = tile.x0; i < tile.x1; ++i) {
-                BoxFilter filter;
+                FiniteMean mean;
                 PixelGeometry geometry;
                 geometry.samples = job_.samples_per_pixel;
                 for (int s = 0; s < job_.samples_per_pixel; ++s) {
@@ -33,10 +33,10 @@ class ConeTileRenderer final : public TileRenderer {
                     const Vec2 at =
                         job_.samples_per_pixel == 1 ? middle.at(i, j) : several.at(i, j, s);
                     const Rgb color = tracer_.trace_eye(cones.at(at), layers ? &geometry : nullptr);
-                    counters_.non_finite += !filter.add(color);
+                    counters_.non_finite += !mean.add(color);
                 }
                 if (job_.stop_requested()) return;
-                film.set(i, j, filter.value());
+                film.set(i, j, mean.value());
                 if (layers) write_geometry(*job_.aovs, i, j, geometry);
             }
         }

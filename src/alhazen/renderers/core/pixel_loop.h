@@ -1,6 +1,5 @@
 #pragma once
-/// The loop over the pixels and samples of tiles: sampler, estimator and filter combined at compile
-/// time.
+/// The loop over the pixels and samples of tiles: sampler and estimator combined at compile time.
 ///
 /// Conventions: eye rays are traced in batches; neighbours in a batch are neighbours in the film.
 /// Memory is reused from tile to tile. Threads: used by one thread.
@@ -12,7 +11,7 @@
 #include <vector>
 
 #include "alhazen/cameras/eye_rays.h"
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/pixel_order.h"
@@ -22,8 +21,9 @@
 
 namespace alhazen {
 
-/// Gathers the eye rays of a tile in batches, traces them and filters their radiance into the film.
-template <PixelSampler Sampler, PixelFilter Filter>
+/// Gathers the eye rays of a tile in batches, traces them and puts the means of their radiance into
+/// the film.
+template <PixelSampler Sampler>
 class PixelLoop {
   public:
     /// `at_once`: largest number of samples of a batch.
@@ -75,7 +75,7 @@ class PixelLoop {
         sampler_.emplace(job_, film.frame_width(), film.frame_height());
         gathered_ = done_ = 0;
         samples_ = 0;
-        filter_ = {};
+        mean_ = {};
         if (pixels_.empty() || tile.width() != tile_.width() || tile.height() != tile_.height()) {
             list_pixels_of_tile(tile.width(), tile.height(), pixels_);
         }
@@ -132,9 +132,9 @@ class PixelLoop {
         const std::ptrdiff_t stride = film.crop().width();
         std::uint64_t left_out = 0;
         for (const Rgb& c : found) {
-            Filter filter;
-            left_out += !filter.add(c);
-            corner[pixel->j * stride + pixel->i] = filter.value();
+            FiniteMean mean;
+            left_out += !mean.add(c);
+            corner[pixel->j * stride + pixel->i] = mean.value();
             ++pixel;
         }
         counters_.non_finite += left_out;
@@ -142,20 +142,20 @@ class PixelLoop {
     }
 
     void take(Film& film, const Rgb& c) {
-        counters_.non_finite += !filter_.add(c);
+        counters_.non_finite += !mean_.add(c);
         if (++samples_ == sampler_->count()) end_pixel(film);
     }
 
     void end_pixel(Film& film) {
         const Pixel& pixel = pixels_[done_++];
         const int i = tile_.x0 + pixel.i, j = tile_.y0 + pixel.j;
-        film.set(i, j, filter_.value());
+        film.set(i, j, mean_.value());
         if (job_.aovs != nullptr) {
             places_.clear();
             for (int s = 0; s < sampler_->count(); ++s) places_.push_back(sampler_->at(i, j, s));
             aovs_.end_pixel(i, j, places_);
         }
-        filter_ = {};
+        mean_ = {};
         samples_ = 0;
     }
 
@@ -172,13 +172,13 @@ class PixelLoop {
     PixelBox tile_;
     std::vector<Pixel> pixels_;  ///< of the tile, in rendering order
     std::size_t done_ = 0;       ///< finished pixels
-    int samples_ = 0;            ///< of the current pixel, seen by the filter
-    Filter filter_;
+    int samples_ = 0;            ///< of the current pixel
+    FiniteMean mean_;
     std::vector<Vec2> places_;  ///< film coordinates of a pixel's samples
 };
 
 /// Returns a RoundRenderer if the job has a round, else that of a PixelLoop with the sampler for
-/// the job's samples per pixel and the box filter.
+/// the job's samples per pixel.
 template <RadianceEstimator Estimator, class... More>
 [[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
                                                                 std::size_t rays_at_once,
@@ -187,10 +187,10 @@ template <RadianceEstimator Estimator, class... More>
         return std::make_unique<RoundRenderer<Estimator>>(job, rays_at_once, more...);
     }
     if (job.samples_per_pixel == 1) {
-        using Loop = PixelLoop<PointSampler, BoxFilter>;
+        using Loop = PixelLoop<PointSampler>;
         return std::make_unique<LoopRenderer<Estimator, Loop>>(job, rays_at_once, more...);
     }
-    using Loop = PixelLoop<JitteredSampler, BoxFilter>;
+    using Loop = PixelLoop<JitteredSampler>;
     return std::make_unique<LoopRenderer<Estimator, Loop>>(job, rays_at_once, more...);
 }
 

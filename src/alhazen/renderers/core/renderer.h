@@ -56,7 +56,7 @@ struct RenderJob {
     /// `answers_single_rays`; null: none.
     const AntialiasSettings* antialias = nullptr;
     /// Sampler, filter and stop rules, for renderers with `takes_samplers`; null: the samplers of
-    /// samplers.h and the box filter.
+    /// samplers.h and the mean of their samples.
     const SamplingPlan* sampling = nullptr;
     const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
     bool spectral = false;               ///< light by wavelengths instead of colour channels

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/lane_carpenter/patch_surface.h"
 
@@ -237,7 +237,7 @@ void ScanShading::shade_run(std::span<const ScanSample> seen, const Vec3* column
 std::uint64_t ScanShading::shade_plain(const ScanRow& row, int number, Film& film) {
     const Vec3 of_row = eye_.row(grid_.film_at(0, number, 0).y);
     Rgb* const pixels = film.from(film.crop().x0, film.crop().y0 + number);
-    BoxFilter of_background;
+    FiniteMean of_background;
     const bool bad_background = !of_background.add(job_.scene.background);
     const Rgb background = of_background.value();
     const std::span<const ScanSample> seen(row.samples);
@@ -252,9 +252,9 @@ std::uint64_t ScanShading::shade_plain(const ScanRow& row, int number, Film& fil
         while (end < seen.size() && seen[end].item != ScanSample::kNothing) ++end;
         shade_run(seen.subspan(i, end - i), columns_.data() + i, of_row, pixels + i);
         for (std::size_t k = i; k < end; ++k) {
-            BoxFilter filter;
-            left_out += !filter.add(pixels[k]);
-            pixels[k] = filter.value();
+            FiniteMean mean;
+            left_out += !mean.add(pixels[k]);
+            pixels[k] = mean.value();
         }
     }
     return left_out;
@@ -271,7 +271,7 @@ std::uint64_t ScanShading::shade(const ScanRow& row, int number, Film& film) {
     std::uint64_t left_out = 0;
     const int y = film.crop().y0 + number;
     for (int i = 0; i < grid_.columns(); ++i) {
-        BoxFilter filter;
+        FiniteMean mean;
         PixelGeometry geometry;
         geometry.samples = samples;
         for (int s = 0; s < samples; ++s) {
@@ -287,9 +287,9 @@ std::uint64_t ScanShading::shade(const ScanRow& row, int number, Film& film) {
                                  layers ? &geometry : nullptr, s == 0);
             }
             veil = end;
-            left_out += !filter.add(color);
+            left_out += !mean.add(color);
         }
-        film.set(film.crop().x0 + i, y, filter.value());
+        film.set(film.crop().x0 + i, y, mean.value());
         if (layers) write_geometry(*job_.aovs, film.crop().x0 + i, y, geometry);
     }
     return left_out;

@@ -20,7 +20,6 @@
 namespace alhazen {
 
 enum class ChainKind : std::uint8_t { Reflection, Refraction, TwoRefractions };
-inline constexpr int kChainKinds = 3;
 [[nodiscard]] constexpr int length_of(ChainKind kind) {
     return kind == ChainKind::TwoRefractions ? 2 : 1;
 }

@@ -104,10 +104,6 @@ SobolSampler::CurveWalk& SobolSampler::walk_of(std::uint64_t key, std::uint32_t 
     return walk;
 }
 
-std::uint32_t SobolSampler::curve_place(const SamplePixel& pixel, std::uint64_t key) {
-    return CurveWalk(key).place(pixel);
-}
-
 void SobolSampler::points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                           std::span<Vec2> out) const {
     const SampleRun run{pixel, first, static_cast<std::uint32_t>(out.size())};

@@ -25,9 +25,6 @@ class SobolSampler final : public Sampler {
     void points_of(std::span<const SampleRun> runs, std::uint32_t pair,
                    std::span<Vec2> out) const override;
 
-    /// The position of a pixel on the curve that `key` shuffles.
-    [[nodiscard]] static std::uint32_t curve_place(const SamplePixel& pixel, std::uint64_t key);
-
   private:
     class CurveWalk;
     [[nodiscard]] static CurveWalk& walk_of(std::uint64_t key, std::uint32_t pair);

@@ -82,16 +82,6 @@ Box3 TriangleMesh::triangle_box(std::size_t triangle) const {
     return box;
 }
 
-Interval TriangleMesh::triangle_extent(std::size_t triangle, const Vec3& axis) const {
-    Interval range;
-    double pad = 0.0;
-    for (const std::uint32_t vertex : triangles[triangle]) {
-        range.include(dot(axis, positions[vertex]));
-        pad = std::max(pad, gamma_bound(5) * dot(abs(axis), abs(positions[vertex])));
-    }
-    return {range.lo - pad, range.hi + pad};
-}
-
 ShapeSurface TriangleMesh::surface(std::size_t triangle, const ShapeHit& hit) const {
     const auto& [i0, i1, i2] = triangles[triangle];
     const Vec3& p0 = positions[i0];

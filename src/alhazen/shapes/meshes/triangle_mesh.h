@@ -44,7 +44,6 @@ struct TriangleMesh {
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] Box3 box() const;
     [[nodiscard]] Box3 triangle_box(std::size_t triangle) const;
-    [[nodiscard]] Interval triangle_extent(std::size_t triangle, const Vec3& axis) const;
     /// The surface at a hit whose u, v are the weights of the second and third vertex.
     [[nodiscard]] ShapeSurface surface(std::size_t triangle, const ShapeHit& hit) const;
     /// `coordinates`: a set of texture coordinates; empty: barycentrics.

@@ -66,18 +66,17 @@ void restrict_row(Row& row, int degree, double t0, double t1) {
     row = part;
 }
 
-/// Calls `change(row, degree)` for the curves in u, each written back with `degree_after + 1`
-/// points.
+/// Calls `change(row)` for the curves in u, each of which is written back.
 template <class Change>
-BezierNet each_in_u(const BezierNet& net, int degree_after, const Change& change) {
+BezierNet each_in_u(const BezierNet& net, const Change& change) {
     BezierNet result;
-    result.degree_u = degree_after;
+    result.degree_u = net.degree_u;
     result.degree_v = net.degree_v;
     for (int j = 0; j <= net.degree_v; ++j) {
         Row row;
         for (int i = 0; i <= net.degree_u; ++i) row[static_cast<std::size_t>(i)] = net.at(i, j);
         change(row);
-        for (int i = 0; i <= degree_after; ++i) result.at(i, j) = row[static_cast<std::size_t>(i)];
+        for (int i = 0; i <= net.degree_u; ++i) result.at(i, j) = row[static_cast<std::size_t>(i)];
     }
     return result;
 }
@@ -166,11 +165,6 @@ BezierNet bezier_net(int degree_u, int degree_v, std::span<const Vec3> points,
     return net;
 }
 
-bool is_rational(BezierView net) {
-    return std::any_of(net.points, net.points + net.count(),
-                       [&](const HomogeneousPoint& p) { return p.w != net.points[0].w; });
-}
-
 PatchPoint derivatives_at(BezierView net, double u, double v) {
     Row values, firsts;  // of the curves in v, along u
     for (int i = 0; i <= net.degree_u; ++i) {
@@ -235,26 +229,9 @@ BezierNet transposed(const BezierNet& net) {
 
 BezierNet part_of(const BezierNet& net, double u0, double u1, double v0, double v1) {
     const BezierNet in_u =
-        each_in_u(net, net.degree_u, [&](Row& row) { restrict_row(row, net.degree_u, u0, u1); });
-    return transposed(each_in_u(transposed(in_u), net.degree_v,
-                                [&](Row& row) { restrict_row(row, net.degree_v, v0, v1); }));
-}
-
-BezierNet elevated(const BezierNet& net, int degree_u, int degree_v) {
-    const auto raise = [](const BezierNet& from, int degree) {
-        return each_in_u(from, degree, [&](Row& row) {
-            for (int n = from.degree_u; n < degree; ++n) {
-                // Farin, equation 6.2: b_i <- i / (n + 1) b_(i-1) + (1 - i / (n + 1)) b_i.
-                row[static_cast<std::size_t>(n) + 1] = row[static_cast<std::size_t>(n)];
-                for (int i = n; i > 0; --i) {
-                    const double share = static_cast<double>(i) / (n + 1);
-                    const auto k = static_cast<std::size_t>(i);
-                    row[k] = share * row[k - 1] + (1.0 - share) * row[k];
-                }
-            }
-        });
-    };
-    return transposed(raise(transposed(raise(net, degree_u)), degree_v));
+        each_in_u(net, [&](Row& row) { restrict_row(row, net.degree_u, u0, u1); });
+    return transposed(
+        each_in_u(transposed(in_u), [&](Row& row) { restrict_row(row, net.degree_v, v0, v1); }));
 }
 
 int boundary_curve(BezierView net, int side, std::array<HomogeneousPoint, kMaxPatchOrder>& curve) {

@@ -80,9 +80,6 @@ struct BezierView {
 [[nodiscard]] BezierNet bezier_net(int degree_u, int degree_v, std::span<const Vec3> points,
                                    std::span<const double> weights = {});
 
-/// True if a weight differs from the first one.
-[[nodiscard]] bool is_rational(BezierView net);
-
 /// A point of the patch with its derivatives by u and v.
 struct PatchPoint {
     Vec3 point;
@@ -100,8 +97,6 @@ struct PatchPoint {
 /// The part over [u0, u1] x [v0, v1], as a patch over the unit square.
 [[nodiscard]] BezierNet part_of(const BezierNet& net, double u0, double u1, double v0, double v1);
 [[nodiscard]] BezierNet transposed(const BezierNet& net);
-/// Raised to higher degrees; the same surface up to rounding.
-[[nodiscard]] BezierNet elevated(const BezierNet& net, int degree_u, int degree_v);
 
 /// The four boundary curves in order: v = 0, u = 1, v = 1, u = 0; each towards rising parameters.
 /// Returns its number of points, written to `curve`.

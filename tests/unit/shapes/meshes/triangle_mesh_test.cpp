@@ -265,18 +265,13 @@ TEST(TriangleMesh, ShadingNormalFallsBackToTheGeometricOne) {
 }
 
 TEST(TriangleMesh, BoundsHoldTheTriangles) {
-    Random random(73);
     const TriangleMesh mesh = sphere_mesh(3);
     EXPECT_EQ(mesh.box(), (Box3{{-1, -1, -1}, {1, 1, 1}}));
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Vec3 axis = random.unit_vector();
-        const Interval extent = mesh.triangle_extent(i, axis);
         for (const std::uint32_t v : mesh.triangles[i]) {
             ASSERT_TRUE(mesh.triangle_box(i).contains(mesh.positions[v]));
-            const Quad exact = dot(QuadVec(axis), QuadVec(mesh.positions[v]));
-            ASSERT_TRUE(extent.lo <= exact && exact <= extent.hi) << i;
         }
-        ASSERT_LT(extent.width(), 0.5) << i;
+        ASSERT_LT(max_component(mesh.triangle_box(i).size()), 0.5) << i;
     }
 }
 

@@ -10,6 +10,9 @@ namespace {
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 /// Maximum number of nodes a search examines: five times the average in a mesh.
 constexpr int kMaxVisits = 96;
+constexpr int kMostPasses = 12;
+/// Least gain of a pass, relative to the sum of the areas of inner nodes: after a smaller one ends.
+constexpr double kLeastGain = 0.005;
 constexpr std::size_t kGrain = 512;
 
 struct Move {
@@ -206,16 +209,16 @@ class Optimizer {
 
 }  // namespace
 
-double reinsert(DraftBvh& tree, const ReinsertionLimits& limits) {
+double reinsert(DraftBvh& tree) {
     if (tree.nodes.size() < 7) return 0;
     Optimizer optimizer(tree);
     const double before = optimizer.total_area();
     double area = before;
-    for (int pass = 0; pass < limits.passes; ++pass) {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
         // First all nodes, then the larger half, where most of the gain remains.
         optimizer.pass(pass == 0 ? tree.nodes.size() : tree.nodes.size() / 2);
         const double now = optimizer.total_area();
-        const bool done = !(now < area * (1 - limits.least_gain));
+        const bool done = !(now < area * (1 - kLeastGain));
         area = now;
         if (done) break;
     }

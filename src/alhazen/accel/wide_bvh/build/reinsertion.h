@@ -13,12 +13,7 @@
 
 namespace alhazen {
 
-struct ReinsertionLimits {
-    int passes = 12;
-    double least_gain = 0.005;  ///< relative to the sum of the areas of inner nodes: stops below it
-};
-
 /// Returns the relative reduction of the sum of the areas of the inner nodes.
-double reinsert(DraftBvh& tree, const ReinsertionLimits& limits = {});
+double reinsert(DraftBvh& tree);
 
 }  // namespace alhazen
