@@ -18,7 +18,14 @@ namespace {
 
 void read_light_color(BlockReader& reader, std::string_view key, Rgb& color) {
     const auto value = reader.find(key);
-    if (value) read_native_color(*value, key, reader.values(), color);
+    if (!value || !read_native_color(*value, key, reader.values(), color)) return;
+    if (color.r < 0 || color.g < 0 || color.b < 0) {
+        reader.values().diagnostics.warning(
+            value->location(),
+            reader.what() + ": '" + std::string(key) +
+                "' is negative: this light is subtracted, by renderers of light transport only if "
+                "its channels add up to more than 0");
+    }
 }
 
 void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
