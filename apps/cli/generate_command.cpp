@@ -10,6 +10,7 @@
 #include "alhazen/session/generators/generate.h"
 #include "commands.h"
 #include "messages.h"
+#include "options.h"
 
 namespace alhazen::cli {
 
