@@ -79,7 +79,7 @@ class CommandLine(CommandLineCase):
         options = ["--accelerators", "kd_tree", "--no-tuning", "--size", "24x18", "--time-limit", "0.05", "-q"]
         missing = run("compare", self.scene, self.path("none.alhazen"), "--json", report, *options)
         self.assertEqual(missing.returncode, 4)
-        self.assertIn("none.alhazen", missing.stderr)
+        self.assertIn("none.alhazen: cannot open the file: No such file or directory", missing.stderr)
         self.assertFalse(os.path.exists(report))
         bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\n")
         self.assertEqual(run("compare", self.scene, bad, "--json", report, *options).returncode, 3)
@@ -600,6 +600,11 @@ plane { point = (0, 0, -9) }
         result = run("section", scene, "--plane", "0,0,1,50", "--svg", self.path("none.svg"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("cuts nothing", result.stdout)
+        for report in "--svg", "--json":
+            result = run("section", scene, "--plane", "0,0,1,50", report, "-")
+            self.assertIn("cuts nothing", result.stderr)
+            self.assertNotIn("cuts nothing", result.stdout)
+            self.assertEqual(run("section", scene, "--plane", "0,0,1,50", report, "-", "-q").stderr, "")
         with open(self.path("none.svg")) as svg:
             self.assertRegex(svg.read(), 'width="7.[0-9]+mm"')
         result = run("section", scene, "--plane", "0,0,1,0", "--svg", self.path("fine.svg"), "--tolerance", "1e-12")
