@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/base/mapped_file.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/laboratory/claims/claims.h"
 #include "alhazen/laboratory/compare.h"
@@ -69,8 +69,7 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
 
 /// Checks that a scene can be read, before long work on the first ones.
 void check_readable(const std::string& scene) {
-    if (std::ifstream(scene).good() && std::filesystem::is_regular_file(scene)) return;
-    throw Error(ErrorKind::File, fmt::format("cannot read {}: not a readable regular file", scene));
+    (void)MappedFile::open(scene);
 }
 
 SceneDescription read_scene(const CompareArguments& args, const std::string& scene,

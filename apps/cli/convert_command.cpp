@@ -22,6 +22,16 @@ struct ConvertArguments {
     ConvertOptions convert;
 };
 
+TessellationReport triangles_of(SceneDescription& description, double tolerance, bool keep_others) {
+    try {
+        return tessellate(description, tolerance, keep_others);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Scene) throw;
+        throw Error(ErrorKind::Scene, std::string(error.what()) +
+                                          "--meshes-only leaves them out, .alhazen keeps them");
+    }
+}
+
 int run(const ConvertArguments& args) {
     // Checks the names before any work.
     check_convert_target(args.scene.scene, args.output);
@@ -34,7 +44,7 @@ int run(const ConvertArguments& args) {
         // A native file can hold shapes without a tessellation; --meshes-only leaves them out.
         const bool keep_others = args.convert.meshes_only ||
                                  std::filesystem::path(args.output).extension() == ".alhazen";
-        const TessellationReport report = tessellate(description, *args.tolerance, keep_others);
+        const TessellationReport report = triangles_of(description, *args.tolerance, keep_others);
         if (args.scene.strict && !report.lost.empty()) {
             std::string message = "triangles cannot hold all of the scene:";
             for (const std::string& line : report.lost) message += "\nerror: " + line;

@@ -10,6 +10,7 @@
 #include "alhazen/session/generators/generate.h"
 #include "commands.h"
 #include "messages.h"
+#include "options.h"
 
 namespace alhazen::cli {
 
@@ -50,7 +51,8 @@ std::uint64_t write_scene(const GenerateArguments& args) {
     } catch (const Error& error) {
         throw Error(ErrorKind::Usage, fmt::format("{}, .nff (scenes of the SPD)", error.what()));
     }
-    return convert(generate(args.name, size_of(args)), args.output, {.meshes_only_setting = ""})
+    return convert(generate(args.name, size_of(args)), args.output,
+                   {.meshes_only_setting = "", .tolerance_setting = ""})
         .bytes;
 }
 

@@ -211,8 +211,9 @@ void ReadArguments::add_to(CLI::App& command) {
         command
             .add_option("--shutter", shutter,
                         "When the shutter opens and closes, instead of what the file says: seconds "
-                        "of its animations, or the unit of its keys. `distributed` shows all of "
-                        "this time, the other renderers its beginning")
+                        "of its animations, or the unit of its keys. `distributed` and the "
+                        "renderers of light transport render all of this time, the others its "
+                        "beginning")
             ->type_name("OPEN,CLOSE");
     }
     command.add_option("--animation", animation, "Apply only this animation")

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
+#include <map>
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
@@ -11,6 +13,7 @@
 #include "alhazen/cameras/projection.h"
 #include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/framing/framing.h"
@@ -104,6 +107,20 @@ void add_frame_options(CLI::App& command, RenderArguments& args) {
         ->type_name("X0,Y0,X1,Y1");
 }
 
+/// "64 for path_tracing, bidirectional, 16 for distributed, else 1"
+std::string usual_samples_in_words() {
+    std::map<int, std::string, std::greater<>> names;
+    for (const RendererEntry& entry : renderers()) {
+        std::string& same = names[make_renderer(entry.name)->usual_samples()];
+        same += (same.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    std::string words;
+    for (const auto& [samples, of] : names) {
+        if (samples > 1) words += fmt::format("{} for {}; ", samples, of);
+    }
+    return words + "else 1";
+}
+
 /// The renderer and its samples.
 void add_sample_options(CLI::App& command, RenderArguments& args) {
     command
@@ -113,8 +130,9 @@ void add_sample_options(CLI::App& command, RenderArguments& args) {
         ->capture_default_str();
     command
         .add_option("--spp", args.spp,
-                    "Samples per pixel; default: 1, or 16 or 64 for renderers that distribute "
-                    "rays; with --noise or a limit of --time the maximum of a pixel")
+                    fmt::format("Samples per pixel; default: {}. With --noise or a limit of "
+                                "--time the maximum of a pixel",
+                                usual_samples_in_words()))
         ->type_name("N");
     command
         .add_option("--sampler", args.sampling.sampler,

@@ -132,10 +132,8 @@ int tell_result(const RenderArguments& args, const RenderOptions& options,
         return kStopped;
     }
     if (!result.complete) {
-        tell(
-            "stopped: {} of {} tiles were traced; the picture in {} lacks the light of the "
-            "others\n",
-            result.tiles_done, result.tiles, args.output);
+        tell("stopped: {} of {} tiles were traced; the others are missing from the picture in {}\n",
+             result.tiles_done, result.tiles, args.output);
         return kStopped;
     }
     if (!args.quiet) {

@@ -198,6 +198,8 @@ void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved,
                   escape_controls(cut.name), cut.area.area.value, cut.area.area.half_width);
         }
         if (cuts.empty()) print("the plane cuts nothing\n");
+    } else if (cuts.empty() && !args.quiet) {
+        tell("the plane cuts nothing\n");
     }
     if (unresolved > 0) {
         tell(

@@ -110,8 +110,13 @@ int run_vector(const VectorArguments& args) {
         for (const std::string& note : drawing.notes) tell("warning: {}\n", note);
         std::size_t regions = 0;
         for (const DrawingGroup& group : drawing.groups) regions += group.regions.size();
-        tell("{} of {}, {}\n", counted(regions, "region"), counted(drawing.groups.size(), "part"),
-             counted(drawing.lines.size(), "line"));
+        const std::string lines = counted(drawing.lines.size(), "line");
+        if (drawing.groups.empty()) {
+            tell("{}\n", lines);
+        } else {
+            tell("{} of {}, {}\n", counted(regions, "region"),
+                 counted(drawing.groups.size(), "part"), lines);
+        }
     }
     return kDone;
 }

@@ -283,8 +283,9 @@ void ViewSession::close() {
 
 Response ViewSession::answer(const Request& request) {
     try {
-        if (request.path == "/state") return state(request.known);
+        if (request.path == "/state" && request.body.empty()) return state(request.known);
         const json wish = wish_json(request.body);
+        if (request.path == "/state") return state(request.known);
         const auto in_turn = [&](std::string what, auto answer) {
             Turn turn(*this, wish, std::move(what), request.stop);
             try {

@@ -145,9 +145,9 @@ plane { point = (0, 0, -9) }
     def test_light_below_zero_and_idle_keys_of_profiles_are_errors(self):
         for text, message in (('material "m" { emission = (-1, 0, 0) }\nsphere { material = "m" }',
                                "emission of material 'm' must be finite and not negative, found -1"),
-                              ("point_light { position = (0, 0, 3); profile_down = (0, 0, 1) }", "'profile_down' needs a 'profile'"),
+                              ("point_light { position = (0, 0, 3); profile_down = (0, 0, 1) }", "'profile_down' needs 'profile'"),
                               ("spot_light { position = (0, 0, 3); direction = (0, 0, -1); profile_front = (0, 1, 0) }",
-                               "'profile_front' needs a 'profile'")):
+                               "'profile_front' needs 'profile'")):
             result = run("info", self.write("bad.alhazen", f"alhazen 1\n{text}\nsphere {{}}\n"))
             self.assertEqual(result.returncode, 3, text)
             self.assertIn(message, result.stderr)
@@ -227,6 +227,11 @@ plane { point = (0, 0, -9) }
         result = run("section", scene, "--plane", "0,0,1,50", "--svg", self.path("none.svg"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("cuts nothing", result.stdout)
+        for report in "--svg", "--json":
+            result = run("section", scene, "--plane", "0,0,1,50", report, "-")
+            self.assertIn("cuts nothing", result.stderr)
+            self.assertNotIn("cuts nothing", result.stdout)
+            self.assertEqual(run("section", scene, "--plane", "0,0,1,50", report, "-", "-q").stderr, "")
         with open(self.path("none.svg")) as svg:
             self.assertRegex(svg.read(), 'width="7.[0-9]+mm"')
         result = run("section", scene, "--plane", "0,0,1,0", "--svg", self.path("fine.svg"), "--tolerance", "1e-12")

@@ -35,6 +35,14 @@ class CommandLine(CommandLineCase):
         self.assertEqual(run("help", "help").stdout, run("--help").stdout)
         self.assertRegex(run("help", "paint").stderr, "'paint'.*render, convert")
 
+    def test_help_tells_the_samples_of_each_renderer_and_the_time_that_a_shutter_shows(self):
+        text = " ".join(run("render", "--help").stdout.split())
+        usual = re.search(r"default: 64 for ([\w, ]+); 16 for ([\w, ]+); else 1\.", text)
+        self.assertEqual([set(names.split(", ")) for names in usual.groups()],
+                         [{"path_tracing", "light_tracing", "bidirectional", "sppm", "vcm"},
+                          {"distributed", "photon_mapping", "ambient_occlusion"}])
+        self.assertIn("`distributed` and the renderers of light transport render all of this time", text)
+
     def test_help_names_every_value_and_says_the_same_of_quiet(self):
         commands = re.findall(r"^  (\w+) ", run("--help").stdout.partition("Subcommands:")[2], re.MULTILINE)
         self.assertGreater(len(commands), 15)
@@ -75,7 +83,7 @@ class CommandLine(CommandLineCase):
         options = ["--accelerators", "kd_tree", "--no-tuning", "--size", "24x18", "--time-limit", "0.05", "-q"]
         missing = run("compare", self.scene, self.path("none.alhazen"), "--json", report, *options)
         self.assertEqual(missing.returncode, 4)
-        self.assertIn("none.alhazen", missing.stderr)
+        self.assertIn("none.alhazen: cannot open the file: No such file or directory", missing.stderr)
         self.assertFalse(os.path.exists(report))
         bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\n")
         self.assertEqual(run("compare", self.scene, bad, "--json", report, *options).returncode, 3)

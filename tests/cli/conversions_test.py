@@ -38,7 +38,11 @@ class Conversions(CommandLineCase):
             scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
             result = run("convert", scene, out)
             self.assertEqual(result.returncode, 2)
-            self.assertRegex(result.stderr, "also has 8 spheres, 1 plane, .*: --meshes-only")
+            self.assertRegex(result.stderr, "also has 8 spheres, 1 plane, .*: --tolerance X makes triangles of them, --meshes-only "
+                                            "leaves them out, .alhazen keeps everything")
+            result = run("convert", scene, out, "--tolerance", "0.5")
+            self.assertEqual(result.returncode, 3)
+            self.assertIn("is endless\n--meshes-only leaves them out, .alhazen keeps them", result.stderr)
             self.assertFalse(os.path.exists(out))
             result = run("convert", scene, out, "--meshes-only")
             self.assertEqual(result.returncode, 0)

@@ -93,6 +93,7 @@ class ViewServer(ServerTest):
             self.assertGreater(len(body), 100)
             self.assertNotIn(self.server.token.encode(), body)
         self.assertEqual(self.status("/nothing", {}), 404)
+        self.assertEqual((self.status("/state", b""), self.status("/state", b"{")), (200, 400))
 
     def test_headers_protect_the_page(self):
         for path, method in (("/", "GET"), ("/state", "POST"), ("/none", "GET")):

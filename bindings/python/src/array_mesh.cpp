@@ -28,8 +28,9 @@ void set_faces(const py::array& faces, std::size_t vertices, const FileLocation&
             const Index corner = from[3 * i + k];
             if (std::cmp_less(corner, 0) || std::cmp_greater_equal(corner, vertices)) {
                 fail("faces[" + std::to_string(i) + "][" + std::to_string(k) + "] is " +
-                         std::to_string(corner) + "; expected 0 to " + std::to_string(vertices) +
-                         " - 1",
+                         std::to_string(corner) +
+                         (vertices == 0 ? "; there are no vertices"
+                                        : "; expected 0 to " + std::to_string(vertices - 1)),
                      where);
             }
             mesh.triangles[i][k] = static_cast<std::uint32_t>(corner);

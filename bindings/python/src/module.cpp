@@ -77,8 +77,10 @@ std::pair<std::vector<std::string>, std::vector<std::string>> save(const BuiltSc
                                                                    bool meshes_only, bool strict) {
     const py::gil_scoped_release released;
     check_convert_target(scene.source().path, path);
-    const ConvertOptions options{
-        .meshes_only = meshes_only, .meshes_only_setting = "meshes_only=True", .strict = strict};
+    const ConvertOptions options{.meshes_only = meshes_only,
+                                 .meshes_only_setting = "meshes_only=True",
+                                 .tolerance_setting = "",
+                                 .strict = strict};
     const ConvertReport report = convert(scene.source(), path, options);
     std::vector<std::string> files;
     for (const auto& file : report.files) files.push_back(file.string());

@@ -201,7 +201,7 @@ class Arrays(unittest.TestCase):
         for query in (self.scene.intersect, self.scene.occluded, self.scene.all_hits, self.scene.count_intersections):
             with self.assertRaisesRegex(alhazen.UsageError, "mask: expected 0 to 0xFFFFFFFF, found -1"):
                 query(np.zeros((1, 6)), mask=-1)
-        with self.assertRaisesRegex(alhazen.SceneError, r"faces\[0\]\[2\] is 3; expected 0 to 3 - 1"):
+        with self.assertRaisesRegex(alhazen.SceneError, r"faces\[0\]\[2\] is 3; expected 0 to 2"):
             alhazen.Scene(np.eye(3), [[0, 1, 3]])
         with self.assertRaisesRegex(alhazen.SceneError, r"faces\[0\]\[0\] is -1"):
             alhazen.Scene(np.eye(3), [[-1, 1, 2]])

@@ -75,12 +75,14 @@ TEST(ConvertMeshes, ShapesAreRefusedByKindOrLeftOut) {
     const std::string message = message_of(maker.description(), path, ErrorKind::Usage);
     EXPECT_NE(message.find("2 spheres, 1 plane, 2 boxes"), std::string::npos) << message;
     EXPECT_NE(message.find("--meshes-only"), std::string::npos) << message;
+    EXPECT_NE(message.find("--tolerance X"), std::string::npos) << message;
     EXPECT_FALSE(std::filesystem::exists(path));
     try {
-        (void)convert(maker.description(), path, {.meshes_only_setting = ""});
+        (void)convert(maker.description(), path,
+                      {.meshes_only_setting = "", .tolerance_setting = ""});
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()).find("--meshes-only"), std::string::npos);
+        EXPECT_EQ(std::string(error.what()).find("--"), std::string::npos) << error.what();
     }
     const ConvertReport report = convert(maker.description(), path, {.meshes_only = true});
     EXPECT_EQ(report.left_out, "2 spheres, 1 plane, 2 boxes");

@@ -127,14 +127,27 @@ void BlockReader::require(std::string_view key) {
                               what_ + ": '" + std::string(key) + " = ...' is missing");
 }
 
+void BlockReader::needs(std::string_view key, std::string_view other) {
+    const std::optional<TextNode> value = find(key);
+    if (value && !has(other)) {
+        error(*value, "'" + std::string(key) + "' needs '" + std::string(other) + "'");
+    }
+}
+
 void BlockReader::finish(bool allow_items) {
     for (const TextNode item : block_) {
         if (item.broken()) continue;
+        const bool known = std::find(known_.begin(), known_.end(), item.text()) != known_.end();
         if (!item.is(NodeKind::Pair)) {
-            if (!allow_items) complain(item, what_ + ": unexpected " + item.describe());
+            if (allow_items) continue;
+            const bool lacks_equals =
+                known && (item.is(NodeKind::Entry) || item.is(NodeKind::Word));
+            complain(item, what_ + (lacks_equals
+                                        ? ": expected '=' after '" + std::string(item.text()) + "'"
+                                        : ": unexpected " + item.describe()));
             continue;
         }
-        if (std::find(known_.begin(), known_.end(), item.text()) != known_.end()) continue;
+        if (known) continue;
         complain(item, what_ + ": unknown key '" + printable(item.text()) + "'; known are " +
                            joined(known_));
     }

@@ -88,6 +88,8 @@ class BlockReader {
 
     /// Reports an error if the key is absent.
     void require(std::string_view key);
+    /// Reports an error if `key` is present without `other`; marks it as known.
+    void needs(std::string_view key, std::string_view other);
     /// Marks a key as known without reading it.
     void ignore(std::string_view key) { (void)find(key); }
 

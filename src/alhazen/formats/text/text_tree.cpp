@@ -43,8 +43,10 @@ std::string TextNode::describe() const {
             break;
     }
     if (empty()) return "'" + printable(text()) + "'";
-    const bool list = first().is(NodeKind::List);
-    return "'" + printable(text()) + (list ? "(...)'" : " {...}'");
+    const char* rest = first().is(NodeKind::List)    ? "(...)'"
+                       : first().is(NodeKind::Block) ? " {...}'"
+                                                     : " ...'";
+    return "'" + printable(text()) + rest;
 }
 
 }  // namespace alhazen

@@ -46,10 +46,16 @@ ConvertReport write_native(const SceneDescription& description, ConvertOutput& o
     return output.finish(bytes_of(text));
 }
 
-/// The part of a refusal about `meshes_only`.
-std::string advice_of(const ConvertOptions& options) {
-    const std::string& setting = options.meshes_only_setting;
-    return setting.empty() ? "" : setting + " leaves them out, ";
+/// The part of a refusal about settings that avoid it; `by_triangles`: triangles are no loss.
+std::string advice_of(const ConvertOptions& options, bool by_triangles) {
+    std::string advice;
+    if (by_triangles && !options.tolerance_setting.empty()) {
+        advice += options.tolerance_setting + " makes triangles of them, ";
+    }
+    if (!options.meshes_only_setting.empty()) {
+        advice += options.meshes_only_setting + " leaves them out, ";
+    }
+    return advice;
 }
 
 // Mesh formats.
@@ -97,7 +103,7 @@ void check_counts(const PlacedCounts& counts, std::size_t surfaces, const fs::pa
         throw Error(ErrorKind::Usage,
                     fmt::format("{} holds {} only; the scene also has {}: {}.alhazen keeps "
                                 "everything",
-                                path.string(), held, shapes, advice_of(options)));
+                                path.string(), held, shapes, advice_of(options, true)));
     }
     if (counts.triangles == 0 && surfaces == 0) {
         throw Error(ErrorKind::Scene,
@@ -298,7 +304,7 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
         throw Error(ErrorKind::Usage,
                     fmt::format("{} holds Bezier patches without weights only; the scene also has "
                                 "{}: {}.alhazen keeps everything",
-                                path.string(), others, advice_of(options)));
+                                path.string(), others, advice_of(options, false)));
     }
     if (surfaces.empty()) {
         throw Error(ErrorKind::Scene,

@@ -25,6 +25,8 @@ struct ConvertOptions {
     bool meshes_only = false;
     /// How the caller's user sets `meshes_only`, advised by the refusal; "": not at all.
     std::string meshes_only_setting = "--meshes-only";
+    /// The same of replacing shapes by triangles before the conversion.
+    std::string tolerance_setting = "--tolerance X";
     double tolerance = 0.0;  ///< that of the triangles which replace shapes; 0: there are none
     bool strict = false;     ///< refuse the scene if the file cannot hold all of the parts written
     std::uint64_t max_triangles = 400'000'000;  ///< limit of a mesh file, instances expanded

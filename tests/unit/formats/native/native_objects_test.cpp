@@ -186,6 +186,9 @@ TEST(NativeImporter, ListsTheNamesThereAre) {
     EXPECT_TRUE(import_native("sphere {\n raduis = 1 }")
                     .says("scene.alhazen:3:2: error: sphere: unknown key 'raduis'; known are "
                           "transform, motion, visible_to, center, radius, material"));
+    EXPECT_TRUE(import_native("patch_mesh { zzz = 1 }").says("patches, file, material"));
+    EXPECT_TRUE(import_native("height_field { zzz = 1; file = \"x\" }")
+                    .says("heights, columns, file, low, high, material"));
     EXPECT_TRUE(import_native("sphare { }").says("unknown block 'sphare'; known are picture"));
     EXPECT_TRUE(
         import_native("conventions { highlight = gloss }").says("one of phong, blinn_phong"));
@@ -193,6 +196,34 @@ TEST(NativeImporter, ListsTheNamesThereAre) {
     EXPECT_TRUE(import_native("material \"a\" { } material \"a\" { }").says("already defined"));
     EXPECT_TRUE(
         import_native("instance \"x\";").says("object \"x\" is not defined before its use"));
+}
+
+TEST(NativeImporter, NamesWhatUsersOfOtherProgramsLeaveOut) {
+    for (const char* text :
+         {"sphere { radius 2 }", "sphere { center (1, 2, 3) }", "sphere { radius }",
+          "sphere { material \"m\" }", "sphere { material { } }"}) {
+        const Imported i = import_native(text);
+        const std::string key = std::string(text).substr(9, std::string(text).find(' ', 9) - 9);
+        EXPECT_EQ(i.errors(), 1u) << i.messages();
+        EXPECT_TRUE(i.says("sphere: expected '=' after '" + key + "'")) << i.messages();
+    }
+    EXPECT_TRUE(import_native("sphere { radus 2 }").says("sphere: unexpected 'radus ...'"));
+    for (const char* text : {"material red { diffuse = 1 }", "union red { sphere { } }",
+                             "instance red;", "group { object red { } }"}) {
+        const Imported i = import_native(text);
+        const std::size_t name = std::string(text).find("red");
+        EXPECT_EQ(i.errors(), 1u) << i.messages();
+        EXPECT_TRUE(i.says("names are in quotes: ")) << i.messages();
+        EXPECT_TRUE(i.says(":2:" + std::to_string(name + 1) + ": ")) << i.messages();
+    }
+    EXPECT_TRUE(import_native("material red { }").says("names are in quotes: material \"red\""));
+    EXPECT_TRUE(import_native("union sphere { }").says("expected a block such as sphere { }"));
+    EXPECT_TRUE(import_native("height_field { file = \"x\"; columns = 2 }")
+                    .says("'columns' needs 'heights'"));
+    EXPECT_TRUE(import_native("height_field { columns = 2; heights = [1, 2, 3, 4]; low = 0 }")
+                    .says("'low' needs 'file'"));
+    EXPECT_TRUE(import_native("sphere_light { center = (0,0,0); radius = 1 }")
+                    .says("'radiance = ...', 'power_watts = ...' or 'lumens = ...' is missing"));
 }
 
 TEST(NativeImporter, InstancesObjectsInsteadOfCopyingThem) {

@@ -79,6 +79,19 @@ TEST(NativeImporter, ReadsRangesGreyColorsAndAnglesInRadians) {
             .says("exclude each other"));
 }
 
+TEST(NativeImporter, WarnsOfNegativeColorsOfLights) {
+    for (const char* text : {"point_light { position = (0,0,0); color = (1, -0.5, 0) }",
+                             "ambient_light { color = -1 }",
+                             "directional_light { direction = (0,0,1); ambient = (0, 0, -1) }",
+                             "sphere_light { center = (0,0,0); radius = 1; radiance = -1 }"}) {
+        const Imported i = import_native(text);
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        EXPECT_TRUE(i.says("is negative: this light is subtracted")) << i.messages();
+    }
+    EXPECT_EQ(import_native("point_light { position = (0,0,0); color = (1, 0, 5) }").messages(),
+              "");
+}
+
 TEST(NativeImporter, ThePlaneOfFocusIsInFrontOfTheCamera) {
     const auto read = [](const std::string& keys) {
         return import_native(

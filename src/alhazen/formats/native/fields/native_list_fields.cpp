@@ -151,6 +151,7 @@ void read_native_fields(BlockReader& reader, HeightField& field) {
     if (reader.has("heights") == reader.has("file")) {
         reader.error(reader.block(), "expected either 'heights = ...' or 'file = ...'");
     }
+    reader.needs("columns", "heights");
     if (!reader.has("heights")) return;
     int columns = 0;
     reader.require("columns");

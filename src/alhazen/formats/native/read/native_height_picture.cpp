@@ -38,6 +38,7 @@ void read_native_height_picture(BlockReader& reader, const NativeContext& contex
     std::string file;
     double low = 0.0, high = 1.0;
     const bool named = reader.read("file", file);
+    for (const char* key : {"low", "high"}) reader.needs(key, "file");
     if (!reader.has("file")) return;
     reader.read("low", low);
     reader.read("high", high);

@@ -16,12 +16,21 @@ namespace alhazen {
 
 namespace {
 
-void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
-    for (const auto& [key, out] : {std::pair{"color", &color}, std::pair{"ambient", &ambient}}) {
-        if (const auto value = reader.find(key)) {
-            read_native_color(*value, key, reader.values(), *out);
-        }
+void read_light_color(BlockReader& reader, std::string_view key, Rgb& color) {
+    const auto value = reader.find(key);
+    if (!value || !read_native_color(*value, key, reader.values(), color)) return;
+    if (color.r < 0 || color.g < 0 || color.b < 0) {
+        reader.values().diagnostics.warning(
+            value->location(),
+            reader.what() + ": '" + std::string(key) +
+                "' is negative: this light is subtracted, by renderers of light transport only if "
+                "its channels add up to more than 0");
     }
+}
+
+void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
+    read_light_color(reader, "color", color);
+    read_light_color(reader, "ambient", ambient);
 }
 
 void read_attenuation(BlockReader& reader, Attenuation& attenuation) {
@@ -56,14 +65,8 @@ void read_profile(BlockReader& reader, NativeContext& context, LightProfile& pro
             reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
         }
     }
-    if (!reader.read("profile", profile.file)) {
-        for (const char* key : {"profile_down", "profile_front"}) {
-            if (reader.has(key)) {
-                reader.error(*reader.find(key), "'" + std::string(key) + "' needs a 'profile'");
-            }
-        }
-        return;
-    }
+    for (const char* key : {"profile_down", "profile_front"}) reader.needs(key, "profile");
+    if (!reader.read("profile", profile.file)) return;
     try {
         const auto path = resolve_inside(context.roots, context.folder, profile.file);
         context.diagnostics.note_file(path);
@@ -111,9 +114,7 @@ void read_ambient_light(const NativeBlock& block, NativeContext& context) {
     BlockReader reader = context.reader(*block.block, block.type);
     AmbientLight light;
     reader.require("color");
-    if (const auto value = reader.find("color")) {
-        read_native_color(*value, "color", reader.values(), light.ambient);
-    }
+    read_light_color(reader, "color", light.ambient);
     reader.finish();
     add_light(block, context, light);
 }
@@ -233,13 +234,12 @@ void read_area_light(const NativeBlock& block, NativeContext& context) {
     Extent extent;
     AreaLight light;
     read_fields(reader, extent);
-    if (!reader.has("power_watts") && !reader.has("lumens")) reader.require("radiance");
-    if (const auto value = reader.find("radiance")) {
-        read_native_color(*value, "radiance", reader.values(), light.radiance);
+    if (!reader.has("radiance") && !reader.has("power_watts") && !reader.has("lumens")) {
+        reader.error(reader.block(),
+                     "'radiance = ...', 'power_watts = ...' or 'lumens = ...' is missing");
     }
-    if (const auto value = reader.find("ambient")) {
-        read_native_color(*value, "ambient", reader.values(), light.ambient);
-    }
+    read_light_color(reader, "radiance", light.radiance);
+    read_light_color(reader, "ambient", light.ambient);
     reader.read("two_sided", light.two_sided);
     reader.read("seen", light.seen);
     // The given radiance is then only a tint.

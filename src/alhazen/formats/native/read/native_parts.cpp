@@ -121,6 +121,24 @@ bool read_top_level_block(const NativeBlock& block, NativeContext& context,
            read_one_of(native_light_blocks());
 }
 
+bool is_block_name(std::string_view word) {
+    const std::vector<std::string_view> names = native_block_names();
+    return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+/// Reports `material red { }`, which is the word `material` and an entry `red`; false for all else.
+bool lacks_quotes(TextNode word, TextNode next, NativeContext& context) {
+    const bool named = next.is(NodeKind::Word) || (next.is(NodeKind::Entry) && !next.empty() &&
+                                                   next.first().is(NodeKind::Block));
+    if (!named || !word.is(NodeKind::Word) || !is_block_name(word.text()) ||
+        is_block_name(next.text())) {
+        return false;
+    }
+    context.diagnostics.error(next.location(), "names are in quotes: " + std::string(word.text()) +
+                                                   " \"" + printable(next.text()) + "\"");
+    return true;
+}
+
 void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
     if (entry.text() == "include") return read_native_include(entry, context, scope);
     if (entry.text() == "instance") return read_native_instance(entry, context, scope);
@@ -197,13 +215,17 @@ void read_native_items(TextNode block, NativeContext& context, NativeScope& scop
                                   "blocks are nested deeper than " + std::to_string(max_nesting));
         return;
     }
-    for (const TextNode item : block) {
+    for (auto at = block.begin(); at != block.end(); ++at) {
+        const TextNode item = *at;
         if (skip > 0) {
             --skip;
             continue;
         }
         if (item.broken()) continue;
-        if (item.is(NodeKind::Entry)) {
+        auto next = at;
+        if (++next != block.end() && lacks_quotes(item, *next, context)) {
+            at = next;
+        } else if (item.is(NodeKind::Entry)) {
             read_entry(item, context, scope);
         } else if (item.is(NodeKind::Pair) && !scope.top_level()) {
             continue;  // already read by the group or object

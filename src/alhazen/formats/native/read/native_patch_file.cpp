@@ -9,9 +9,11 @@ namespace alhazen {
 bool read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
                             const FileLocation& where, AnyShape& shape) {
     auto* mesh = std::get_if<PatchMesh>(&shape);
-    if (mesh == nullptr || !reader.has("file")) return true;
+    if (mesh == nullptr) return true;
     std::string file;
-    if (!reader.read("file", file)) return false;
+    const bool named = reader.read("file", file);
+    if (!reader.has("file")) return true;
+    if (!named) return false;
     const TextNode place = *reader.find("file");
     for (const char* field : {"degree_u", "degree_v", "points", "weights", "patches"}) {
         if (reader.has(field)) {
