@@ -10,6 +10,7 @@
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
+#include "alhazen/shapes/polygons/flat_vertices.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "alhazen/shapes/tessellation/trimmed_triangles.h"
 
@@ -172,14 +173,15 @@ void append_face(std::span<const Vec3> corners, const UvOf& uv_of, TriangleMesh&
 
 std::string append(const Polygon& shape, double, std::uint64_t, TriangleMesh& mesh) {
     if (shape.loop_ends.size() > 1) return "has holes";
-    const RepairedPolygon repaired = repaired_polygon(
-        shape.vertices, shape.loop_ends, {shape.normal, dot(shape.normal, shape.point)});
+    const std::vector<Vec3> corners = flat_vertices(shape);
+    const RepairedPolygon repaired =
+        repaired_polygon(corners, shape.loop_ends, {shape.normal, dot(shape.normal, shape.point)});
     const auto add = [&](const std::vector<Vec3>& loop) {
         append_face(
             loop, [&](std::size_t k) { return uv_at(shape, loop[k], 0); }, mesh);
     };
     if (!repaired.crosses) {
-        add(shape.vertices);
+        add(corners);
         return {};
     }
     for (const std::vector<Vec3>& part : repaired.parts) add(part);

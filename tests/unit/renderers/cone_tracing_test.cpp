@@ -80,6 +80,11 @@ TEST(ConeTracing, APolygonThatCrossesItselfIsFilledOddEven) {
     EXPECT_NEAR(one_pixel(half), 0.5, 1e-6);
     hole.add(pentagram, hole.material(glowing({1, 1, 1})));
     EXPECT_NEAR(one_pixel(hole), 0.0, 1e-12);
+    // In its mean plane, if its corners are far off it.
+    bow.vertices = {{-9, -9, 1}, {9, 9, 1}, {9, -9, -1}, {-9, 9, -1}};
+    SceneMaker bent;
+    bent.add(bow, bent.material(glowing({1, 1, 1})));
+    EXPECT_NEAR(one_pixel(bent), 0.5, 1e-6);
     // A vertex in the crossing, on either diagonal.
     for (const std::vector<Vec3>& loop :
          {std::vector<Vec3>{{0, 0, 0}, {9, 9, 0}, {9, -9, 0}, {0, 0, 0}, {-9, 9, 0}, {-9, -9, 0}},

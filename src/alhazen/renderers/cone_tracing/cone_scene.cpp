@@ -14,6 +14,7 @@
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shapes/meshes/mesh_shells.h"
 #include "alhazen/shapes/polygons/face_loops.h"
+#include "alhazen/shapes/polygons/flat_vertices.h"
 
 namespace alhazen {
 
@@ -245,10 +246,11 @@ class ConeGatherer {
     }
     bool add_kind(const Polygon& s, ConeSource& source) {
         begin_faces(source);
+        const std::vector<Vec3> corners = flat_vertices(s);
         const RepairedPolygon repaired =
-            repaired_polygon(s.vertices, s.loop_ends, {s.normal, dot(s.normal, s.point)});
+            repaired_polygon(corners, s.loop_ends, {s.normal, dot(s.normal, s.point)});
         if (!repaired.crosses) {
-            add_face(0, s.vertices, s.loop_ends);
+            add_face(0, corners, s.loop_ends);
             return true;
         }
         // Inside is odd-even: signed areas of a loop that meets itself may say otherwise.

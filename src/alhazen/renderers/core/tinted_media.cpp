@@ -113,6 +113,11 @@ RayMedium medium_behind(const ShadingPoint& point, bool closed, TintedMedia* med
                         const RayMedium& around) {
     const MaterialSample& material = *point.material;
     const BehindSurface& behind = point.behind;
+    // Before the back of an opaque face is no medium of its own, unless its body was entered.
+    if (!behind.known && !behind.joined && !point.entering && point.medium.is_black() &&
+        (media == nullptr || !media->is_in(body_of(point.surface), around.medium))) {
+        return around;
+    }
     RayMedium result = around;
     result.hidden = false;
     result.inside = behind.known ? behind.inside : point.entering;

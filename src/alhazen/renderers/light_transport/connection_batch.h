@@ -87,9 +87,9 @@ class ConnectionBatch {
                                            const MediumStack& media, const Wavelengths& waves,
                                            bool met, FreeFlight* flight);
     /// The transmittance of a surface. `media`: the volumes before it, then those behind it; null:
-    /// volumes are not followed.
+    /// volumes are not followed. `before`: no face of another surface is nearer before it.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                   const Wavelengths& waves, MediumStack* media);
+                                   const Wavelengths& waves, MediumStack* media, double before);
     /// True if the face of the hit was crossed with one before.
     [[nodiscard]] bool is_crossed(const Ray& ray, const Hit& hit, float time);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,

@@ -359,6 +359,24 @@ TEST(CoincidentOptics, AFaceThatWasCrossedIsNotCrossedAgainWithALargeSurfaceBehi
     }
 }
 
+/// A ceiling is lit from below through both; shadow rays meet all faces of their way at once.
+TEST(CoincidentOptics, AFaceThatAShadowRayCrossedIsNotCrossedAgainWithALargeSurfaceBehindIt) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0.1, 0.1, 2.3}, {0, 0, 1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    maker.light(DirectionalLight{.to_light = {0, 0, -1}, .color = {1, 1, 1}});
+    maker.add(Rectangle{{-90, -90, 3}, {180, 0, 0}, {0, 180, 0}},
+              maker.material(testing::matt({1, 1, 1})));
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1e-12}}, maker.material(physical({1.0, 0.7})));
+    maker.add(box(-2, 0, 1000), maker.material(physical({1.0, 0.2})));
+    const Scene scene = maker.compile();
+    const double t = std::exp(-0.4);
+    for (const char* renderer : {"path_tracing", "bidirectional", "vcm"}) {
+        SCOPED_TRACE(renderer);
+        expect_near(testing::picture_of(scene, renderer, 1, 4).at(0, 0), {t, t, t}, 1e-6);
+    }
+}
+
 TEST(CoincidentOptics, AFaceUnderASheetKeepsItsTint) {
     Material physical_tint = testing::smooth_glass(1.0);
     physical_tint.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};

@@ -201,5 +201,35 @@ TEST(LeavingSide, ARefractedRayThatDoesNotEnterABodyIsNotTinted) {
     expect_way(kByNormals, block, 0.0);
 }
 
+/// The back of an opaque triangle in an absorbing block; its normal leans so far that the light is
+/// behind it. A face that is opaque bounds nothing.
+TEST(LeavingSide, LightBehindAnOpaqueFaceIsAbsorbedByTheBlockAround) {
+    constexpr double kAbsorption = 0.7;
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0.1, 0.1, 3}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    Material clear;
+    clear.index.value = 1.0;
+    clear.dielectric = Dielectric{{kAbsorption, kAbsorption, kAbsorption}};
+    maker.add(BoxShape{{-2, -2, -2}, {2, 2, 2}}, maker.material(clear));
+    TriangleMesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 2, 1}};
+    mesh.normals.assign(3, normalize(Vec3{-1, 0, -1}));
+    maker.add(maker.mesh(std::move(mesh)), maker.material(testing::matt({1, 1, 1})));
+    const Vec3 to_light = normalize(Vec3{1, 0, -0.2});
+    maker.light(DirectionalLight{.to_light = to_light, .color = {1, 1, 1}});
+    const Scene scene = maker.compile();
+    const double way = 2.0 + 1.9 / to_light.x;
+    const double expected = dot(normalize(Vec3{1, 0, 1}), to_light) * std::exp(-kAbsorption * way);
+    for (const std::string& renderer : kByNormals) {
+        const RenderJob job{
+            .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
+        Film film(1, 1, {0, 0, 1, 1});
+        EXPECT_TRUE(make_renderer(renderer)->render(job, film).complete());
+        EXPECT_NEAR(film.at(0, 0).r, expected, 1e-6) << renderer;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -71,6 +71,13 @@ TEST(PatchTessellation, APolygonThatCrossesItselfIsFilledOddEven) {
     }
     EXPECT_NEAR(area, 10.0, 1e-5);
     for (const Vec3& n : mesh.normals) EXPECT_NEAR(dot(n, bow.normal), 1.0, 1e-12);
+    // In its mean plane, if its corners are far off it.
+    bow.vertices = {{-1, -1, 2.3}, {1, 1, 2.3}, {1, -1, 1.7}, {-1, 1, 1.7}};
+    bow.prepare();
+    TriangleMesh bent;
+    EXPECT_EQ(append_triangles(AnyShape{bow}, 0.1, kLimit, bent), "");
+    EXPECT_NEAR(alhazen::area(bent), 2.0, 1e-6);
+    for (const Vec3& p : bent.positions) EXPECT_NEAR(p.z, 2.0, 1e-12);
 }
 
 TEST(PatchTessellation, IsWithinTheTolerance) {

@@ -9,6 +9,7 @@
 #include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
+#include "alhazen/shapes/polygons/flat_vertices.h"
 
 namespace alhazen {
 
@@ -27,13 +28,6 @@ void drop_repeated(Polygon& polygon) {
     v.erase(std::unique(v.begin(), v.end()), v.end());
     while (v.size() > 1 && v.back() == v.front()) v.pop_back();
     polygon.loop_ends.clear();
-}
-
-/// The corners, moved to the plane of the polygon along its normal.
-std::vector<Vec3> flat_corners(const Polygon& polygon) {
-    std::vector<Vec3> flat = polygon.vertices;
-    for (Vec3& p : flat) p = p - dot(p - polygon.point, polygon.normal) * polygon.normal;
-    return flat;
 }
 
 std::shared_ptr<TriangleMesh> triangles_of(const Polygon& polygon, const std::vector<Vec3>& flat) {
@@ -70,7 +64,7 @@ void replace_bent_polygon(NativeContext& context, Part& part) {
     if (!is_complete(polygon)) return;
     polygon.prepare();
     if (is_flat(polygon.vertices, polygon.normal)) return;
-    const std::vector<Vec3> flat = flat_corners(polygon);
+    const std::vector<Vec3> flat = flat_vertices(polygon);
     const bool is_mesh = is_simple(polygon, flat);
     context.diagnostics.warning(
         part.location, "polygon: its corners are not in a plane, but up to " +
