@@ -184,6 +184,25 @@ bilinear_patch { material = "m"; transform = %s }
             result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1", "--strict", "-q")
             self.assertEqual(result.returncode, 3 if told else 0, result.stderr)
 
+    def test_what_is_thinner_than_the_tolerance_is_told(self):
+        small = ('difference "small" { box { lo = (8, 8, 8); hi = (8.5, 8.5, 8.5) } '
+                 "box { lo = (8.1, 8.1, 8.1); hi = (9, 9, 9) } }\n")
+        told = 'small: no triangles: the solid is empty or thinner than the tolerance'
+        scene = self.write("thin.alhazen", "alhazen 1\nbox { lo = (0, 0, 0); hi = (5, 5, 5) }\n" + small)
+        result = run("convert", scene, self.path("out.ply"), "--tolerance", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("thin.alhazen:3:1: " + told, result.stderr)
+        self.assertRegex(result.stderr, r"1 shape became \d+ triangles within 2 of it")
+        result = run("convert", scene, self.path("strict.ply"), "--tolerance", "2", "--strict", "-q")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn(told, result.stderr)
+        alone = self.write("alone.alhazen", "alhazen 1\n" + small)
+        result = run("convert", alone, self.path("alone.ply"), "--tolerance", "2")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("warning: ", result.stderr)
+        self.assertIn(told, result.stderr)
+        self.assertIn("the scene has no triangles to write", result.stderr)
+
     def test_what_has_no_triangles_is_refused_or_stays(self):
         scene = self.write("plane.alhazen", "alhazen 1\nsphere { radius = 1 }\nplane \"floor\" { point = (0, -1, 0) }\n")
         result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1")

@@ -7,6 +7,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/solids/stratified_chords.h"
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Extents of more parts would take longer than the lines they save.
 constexpr std::size_t kMostParts = 4096;
+/// Instanced solids beyond this many leaves count as one leaf each: nested ones can have billions.
+constexpr std::size_t kMostNestedParts = 65536;
 
 /// Copies a shape of a table into a separate table; returns its placement there.
 Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable& alone) {
@@ -204,19 +207,94 @@ void IsolatedSolid::part_extents(const Vec3& axis, std::vector<Interval>& parts)
     }
 }
 
-std::vector<Box3> IsolatedSolid::surface_boxes() const {
-    const PrimitiveTable& table = aggregate_->primitives();
-    const auto* csg = dynamic_cast<const CsgAggregate*>(csg_);
-    if (table.size() > kMostParts || csg == nullptr) return {box_};
+namespace {
+
+/// Perpendicular unit vectors, turned about each other while that makes the box smaller that holds
+/// a body between its `extent` along them: Jacobi's rotations of the form that gives the squares of
+/// the widths.
+template <class Extent>
+void turn_to_body(std::array<Vec3, 3>& axes, const Extent& extent) {
+    const auto square = [&](const Vec3& axis) {
+        const Interval range = extent(axis);
+        const double width = std::max(0.0, range.hi - range.lo);
+        return width * width;
+    };
+    constexpr int kSweeps = 4;
+    for (int round = 0; round < 3 * kSweeps; ++round) {
+        Vec3 &u = axes[static_cast<std::size_t>(round % 3)],
+             &v = axes[static_cast<std::size_t>((round + 1) % 3)];
+        const double half = std::sqrt(0.5), of_u = square(u), of_v = square(v);
+        const double mixed = square(half * (u + v)) - square(half * (u - v));
+        const double angle = 0.5 * std::atan2(mixed, of_u - of_v);
+        const double c = std::cos(angle), s = std::sin(angle);
+        const Vec3 next_u = c * u + s * v, next_v = c * v - s * u;
+        if (!(square(next_u) * square(next_v) < (1 - 1e-9) * of_u * of_v)) continue;
+        u = next_u, v = next_v;
+    }
+}
+
+/// Perpendicular unit vectors, the first two in the plane of a frame's first two axes.
+std::array<Vec3, 3> axes_of(const Affine& frame) {
+    const Vec3 x = unit_or(frame.linear.x_axis, {1, 0, 0});
+    const Vec3 y = frame.linear.y_axis - dot(frame.linear.y_axis, x) * x;
+    const Vec3 own = unit_or(y, perpendicular(x));
+    return {x, own, cross(x, own)};
+}
+
+/// Appends the leaves of an aggregate within a box of the world.
+void append_leaves(const Aggregate& aggregate, const Affine& outer, const Box3& within,
+                   std::vector<IsolatedSolid::SurfacePart>& parts) {
+    const auto* csg = dynamic_cast<const CsgAggregate*>(&aggregate);
+    const PrimitiveTable& table = aggregate.primitives();
+    const auto append = [&](const Affine& frame, const Box3& box, const auto& inner_extent) {
+        const auto extent = [&](const Vec3& axis) {
+            const Interval inner = inner_extent(transpose_times(outer.linear, axis));
+            const double shift = dot(axis, outer.translation);
+            return intersection(Interval{inner.lo + shift, inner.hi + shift},
+                                alhazen::extent(box, axis));
+        };
+        IsolatedSolid::SurfacePart part{axes_of(frame), {}, box};
+        turn_to_body(part.axes, extent);
+        for (int k = 0; k < 3; ++k) {
+            const Interval range = extent(part.axes[static_cast<std::size_t>(k)]);
+            part.own.lo[k] = range.lo;
+            part.own.hi[k] = range.hi;
+        }
+        parts.push_back(part);
+    };
+    const auto append_primitive = [&](std::size_t i, const Box3& box) {
+        const Placement* own = table.placement_of(PrimitiveId(i));
+        append(own == nullptr ? outer : outer * own->outer_from_inner, box,
+               [&](const Vec3& axis) { return table.extent(i, axis); });
+    };
+    if (csg == nullptr && table.size() == 1) return append_primitive(0, within);
+    if (csg == nullptr) {
+        const Box3 box = aggregate.box();
+        return append(outer, within, [&](const Vec3& axis) { return alhazen::extent(box, axis); });
+    }
     const CsgSolid& solid = csg->solid();
-    std::vector<Box3> boxes;
     for (std::uint32_t leaf = 0; leaf < solid.leaf_count(); ++leaf) {
         const Box3 inner = common_box(solid.leaf_box(leaf), solid.tree().bounds()[leaf]);
         if (inner.empty()) continue;
-        const Box3 box = common_box(transformed(world_.outer_from_inner, inner), box_);
-        if (!box.empty()) boxes.push_back(box);
+        const Box3 box = common_box(transformed(outer, inner), within);
+        if (box.empty()) continue;
+        const PrimitiveId id = solid.expression().leaves[leaf];
+        if (table.kind(id) == kInstanceKind && parts.size() < kMostNestedParts) {
+            const Instance& instance = table.instances[table.index(id)];
+            append_leaves(*instance.aggregate, outer * instance.placement.outer_from_inner, box,
+                          parts);
+        } else {
+            append_primitive(static_cast<std::size_t>(id), box);
+        }
     }
-    return boxes;
+}
+
+}  // namespace
+
+std::vector<IsolatedSolid::SurfacePart> IsolatedSolid::surface_parts() const {
+    std::vector<SurfacePart> parts;
+    append_leaves(*aggregate_, world_.outer_from_inner, box_, parts);
+    return parts;
 }
 
 namespace {

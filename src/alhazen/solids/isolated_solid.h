@@ -6,6 +6,7 @@
 /// ray.
 /// Threads: const functions may be called from many threads, each with its own LineSpans.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -57,9 +58,15 @@ class IsolatedSolid final : public Measurable {
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
     /// The primitives; for a CSG object its positive leaves, within their S-bounds (csg_tree.h).
     void part_extents(const Vec3& axis, std::vector<Interval>& parts) const override;
-    /// Boxes that together contain the surface: of the primitives; for a CSG object of all its
-    /// leaves, also subtracted ones, within their S-bounds. Of many, only the box of the whole.
-    [[nodiscard]] std::vector<Box3> surface_boxes() const;
+    /// A leaf.
+    struct SurfacePart {
+        std::array<Vec3, 3> axes;  ///< perpendicular unit vectors along which it is thin or long
+        Box3 own;                  ///< its ranges along `axes`
+        Box3 box;                  ///< within its S-bound
+    };
+    /// Parts that together contain the surface: the leaves of a CSG object, also subtracted ones
+    /// and those of solids that it instances; other solids are one part.
+    [[nodiscard]] std::vector<SurfacePart> surface_parts() const;
     /// Includes the frame of the solid, for a CSG object its parts, and the reach of patches.
     [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;

@@ -13,8 +13,11 @@ namespace {
 
 /// Cells along the root if none is divided more than the box asks for.
 constexpr std::uint32_t kRootCells = 32;
-/// The largest number of cells that the box of a part, and those of all, are divided into.
-constexpr double kMostOfPart = 4096, kMostOfParts = 262144;
+/// The largest number of cells that the box of a part, and those of all, are divided into. Each
+/// part gets at least the smaller number: half its least side in a cube.
+constexpr double kMostOfPart = 4096, kMostOfParts = 262144, kLeastOfPart = 8;
+/// The largest number of lines along an axis through a part, and through all that have several.
+constexpr double kMostLinesInPart = 1024, kMostLinesInParts = 65536;
 /// Cosine of the largest angle of normals in a cell without an edge.
 constexpr double kSmoothCosine = 0.8;
 /// How far from its cell a vertex may be, in cells, where triangles are tested: an edge of the
@@ -60,6 +63,7 @@ Vec3 feature_point(std::span<const SurfaceCells::Crossing> crossings, const Vec3
 SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings, double tolerance,
                            SolidCoordinates* coordinates)
     : line_(solid),
+      cell_(cell),
       unit_(std::ldexp(cell, -halvings)),
       limit_(0.5 * tolerance),
       spacing_(std::max(kLineSpacing * cell, tolerance)),
@@ -70,8 +74,15 @@ SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings
       tree_(kRootCells << halvings),
       coordinates_(coordinates) {
     split_to(0, box_, std::uint32_t{1} << halvings);
-    const std::vector<Box3> parts = solid.surface_boxes();
-    for (const Box3& part : parts) split_part(part, kMostOfParts / double(parts.size()));
+    const std::vector<IsolatedSolid::SurfacePart> parts = solid.surface_parts();
+    const double count = static_cast<double>(parts.size());
+    const double cells = std::clamp(kMostOfParts / count, kLeastOfPart, kMostOfPart);
+    const double lines = std::clamp(kMostLinesInParts / count, 1.0, kMostLinesInPart);
+    for (const IsolatedSolid::SurfacePart& part : parts) {
+        interruption_point();
+        split_part(part.box, cells);
+        start_part(part, lines);
+    }
 }
 
 bool SurfaceCells::divide(std::uint64_t max_triangles) {
@@ -106,10 +117,64 @@ void SurfaceCells::split_part(const Box3& part, double most) {
         for (int k = 0; k < 3; ++k) product *= std::max(1.0, sides[k] / cell);
         return product;
     };
-    while (count() > std::min(most, kMostOfPart)) cell *= 1.25;
+    while (count() > most) cell *= 1.25;
     std::uint32_t size = 1;
     while (2.0 * size * unit_ <= cell && size < tree_[0].size) size *= 2;
     split_to(0, part, size);
+}
+
+void SurfaceCells::start_part(const IsolatedSolid::SurfacePart& part, double most) {
+    if (part.own.empty() || !part.own.bounded()) return;
+    const Vec3 sides = part.own.size();
+    const double least = std::min({sides.x, sides.y, sides.z});
+    if (!(least > 0.0)) return;
+    std::array<Vec3, 3> along;
+    Vec3 corner;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = part.axes[static_cast<std::size_t>(k)];
+        along[static_cast<std::size_t>(k)] = sides[k] * axis;
+        corner = corner + part.own.lo[k] * axis;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto lines = [&](std::size_t side, double step) {
+            return std::max(1.0, std::ceil(sides[static_cast<int>(side)] / step - 1e-6));
+        };
+        double step = least;
+        while (lines(u, step) * lines(v, step) > most) step *= 1.25;
+        const double across = lines(u, step), down = lines(v, step);
+        for (double i = 0.5; i < across; ++i) {
+            for (double k = 0.5; k < down; ++k) {
+                const Vec3 from = corner + (i / across) * along[u] + (k / down) * along[v];
+                const auto start = [&](double lo, double hi) {
+                    lo = std::max(lo, 0.0), hi = std::min(hi, 1.0);
+                    if (lo < hi) start_at(from + 0.5 * (lo + hi) * along[axis]);
+                };
+                double last = kInfinity;
+                const std::vector<Interval> spans = line_.spans(from, along[axis]);
+                for (const Interval& span : spans) {
+                    start(last, span.lo);
+                    start(span.lo, span.hi);
+                    last = span.hi;
+                }
+            }
+        }
+    }
+}
+
+void SurfaceCells::start_at(const Vec3& p) {
+    // In all directions the surface is at least 0.88 times as far as along the nearest of these.
+    constexpr double kCellsPerDistance = 0.5;
+    const double c = std::sqrt(1.0 / 3.0);
+    double nearest = cell_ / kCellsPerDistance;
+    for (const Vec3& along : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{c, c, c},
+                              Vec3{-c, c, c}, Vec3{c, -c, c}, Vec3{c, c, -c}}) {
+        nearest = std::min(nearest, line_.distance(p, along, nearest));
+        if (nearest <= limit_) return;
+    }
+    std::uint32_t size = 1;
+    while (2.0 * size * unit_ <= kCellsPerDistance * nearest && size < tree_[0].size) size *= 2;
+    split_to(0, {p, p}, size);
 }
 
 void SurfaceCells::ask(const CellTree::Edge& edge) {

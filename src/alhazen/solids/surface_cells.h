@@ -100,6 +100,11 @@ class SurfaceCells {
     /// Divides the cells in the box of a part of the surface to half its least side, or into about
     /// `most`.
     void split_part(const Box3& part, double most);
+    /// Divides cells that hide a part of the solid, or a gap in it: lines along the axes of a part
+    /// of the surface are as far apart as its least side, or about `most` along each axis.
+    void start_part(const IsolatedSolid::SurfacePart& part, double most);
+    /// Divides the cell at a point until its corners are on the same side of the surface.
+    void start_at(const Vec3& p);
     /// Lets the largest of the cells around an edge be divided, unless they are the smallest.
     void ask(const CellTree::Edge& edge);
     void ask(std::uint32_t cell);
@@ -147,7 +152,7 @@ class SurfaceCells {
     [[nodiscard]] std::uint32_t leaf_at(const Vec3& p) const;
 
     SurfaceLine line_;
-    double unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
+    double cell_, unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
     Box3 box_;
     Vec3 origin_;
     CellTree tree_;

@@ -271,6 +271,77 @@ TEST(SolidTriangles, SmallPartsWithoutAPrimitiveOfTheirSizeAreFound) {
     }
 }
 
+/// Largest distance of points of the axis of a bar from the nearest vertex.
+double largest_gap(const TriangleMesh& mesh, const Vec3& from, const Vec3& to) {
+    double most = 0;
+    for (int k = 0; k <= 100; ++k) {
+        most = std::max(most, nearest_vertex(mesh, from + 0.01 * k * (to - from)));
+    }
+    return most;
+}
+
+TEST(SolidTriangles, ThinPartsObliqueToTheAxesAreFound) {
+    Random random(8);
+    for (int round = 0; round < 6; ++round) {
+        SceneMaker maker;
+        const ObjectIndex both = maker.object("plate and bars");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, -0.9}}, MaterialId{0}, {}, both);
+        const Vec3 half = 0.4 * random.unit_vector(), aside{2, 0, 0};
+        maker.add(Cylinder{.base = -half, .top = half, .radius = 0.0015}, MaterialId{0}, {}, both);
+        const Affine turn =
+            Affine::translate(aside) * Affine::rotate(random.unit_vector(), random.uniform(0, 3));
+        maker.add(BoxShape{.lo = {-0.4, -0.001, -0.001}, .hi = {0.4, 0.001, 0.001}}, MaterialId{0},
+                  turn, both);
+        (void)maker.material({});
+        maker.add(both);
+        const TriangleMesh mesh = mesh_of(maker, 0.0016);
+        EXPECT_LT(largest_gap(mesh, -half, half), 0.1) << round;
+        const Vec3 end = turn.vector({0.4, 0, 0});
+        EXPECT_LT(nearest_vertex(mesh, aside - end), 0.005) << round;
+        EXPECT_LT(nearest_vertex(mesh, aside + end), 0.005) << round;
+    }
+}
+
+TEST(SolidTriangles, PartsOfInstancedSolidsAreFound) {
+    SceneMaker maker;
+    const ObjectIndex all = maker.object("plate and pairs");
+    const ObjectIndex pair = maker.object("pair");
+    maker.description().objects[1].combine = Combine::Union;
+    maker.description().objects[2].combine = Combine::Union;
+    maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, -0.9}}, MaterialId{0}, {}, all);
+    const Vec3 ends[2] = {{-0.6, 0.1, 0.3}, {0.7, 0.2, -0.3}};
+    for (const Vec3& end : ends) {
+        maker.add(Sphere{.center = end, .radius = 0.002}, MaterialId{0}, {}, pair);
+    }
+    std::vector<Affine> places;
+    for (int k = 0; k < 3; ++k) {
+        places.push_back(Affine::translate({0, 0, 0.7 * k}) * Affine::rotate({1, 2, 3}, 0.5 * k));
+        maker.add(pair, MaterialId{0}, places.back(), all);
+    }
+    (void)maker.material({});
+    maker.add(all);
+    const TriangleMesh mesh = mesh_of(maker, 0.001);
+    for (const Affine& place : places) {
+        for (const Vec3& end : ends) EXPECT_LT(nearest_vertex(mesh, place.point(end)), 0.003);
+    }
+}
+
+TEST(SolidTriangles, SmallPartsAreFoundHoweverMany) {
+    constexpr int kSide = 17;
+    SceneMaker maker;
+    const ObjectIndex all = maker.object("grid");
+    maker.description().objects.back().combine = Combine::Union;
+    for (int k = 0; k < kSide * kSide * kSide; ++k) {
+        const Vec3 at{double(k % kSide), double(k / kSide % kSide), double(k / kSide / kSide)};
+        maker.add(BoxShape{.lo = at, .hi = at + Vec3{0.02, 0.02, 0.02}}, MaterialId{0}, {}, all);
+    }
+    (void)maker.material({});
+    maker.add(all);
+    const TriangleMesh mesh = mesh_of(maker, 0.008);
+    EXPECT_EQ(mesh.triangles.size(), 12u * kSide * kSide * kSide);
+}
+
 TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
     Random random(12);
     for (int round = 0; round < 4; ++round) {

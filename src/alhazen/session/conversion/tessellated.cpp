@@ -258,7 +258,7 @@ class Tessellation {
         object.combine = Combine::Group;
     }
 
-    /// True if there is a mesh; otherwise reports why not.
+    /// True if there is a mesh, which may be empty; otherwise reports why not.
     bool accept(const std::string& failed, const FileLocation& where, const std::string& name,
                 const char* what, const TriangleMesh& mesh) {
         if (failed == kTooManyTriangles) {
@@ -269,6 +269,12 @@ class Tessellation {
         if (!failed.empty()) {
             refuse(where, name, what + failed);
             return false;
+        }
+        if (mesh.triangles.empty()) {
+            report_.lost.push_back(
+                fmt::format("{}: {}: no triangles: {}is empty or thinner than the tolerance",
+                            to_string(where), name, what));
+            return true;
         }
         ++report_.shapes;
         report_.triangles += mesh.triangles.size();

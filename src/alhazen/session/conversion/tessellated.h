@@ -11,9 +11,10 @@
 namespace alhazen {
 
 struct TessellationReport {
-    std::uint64_t shapes = 0, triangles = 0;
+    std::uint64_t shapes = 0, triangles = 0;  ///< `shapes`: those that have triangles
     std::vector<std::string> kept;  ///< "FILE:L:C: plane: no triangles: the shape is endless"
-    /// What triangles of solids do not have of the meshes they are cut from, a line for each solid.
+    /// Solids and shapes without a triangle, and what triangles of solids do not have of the meshes
+    /// they are cut from, a line each.
     std::vector<std::string> lost;
 };
 
