@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "alhazen/renderers/core/coincident_surfaces.h"
 #include "alhazen/renderers/core/local_shading.h"
@@ -143,7 +142,7 @@ Spectrum ConnectionBatch::through_surfaces(const Ray& ray, float time, RayKind k
     if (!find_crossings(ray, time, kind)) return {};
     Spectrum share = Spectrum::all(1);
     for (const Hit& crossing : crossings_) {
-        share = share * through(ray, time, kind, crossing, waves, nullptr, kInfinity);
+        share = share * through(ray, time, kind, crossing, waves, nullptr);
         if (share.is_black()) break;
     }
     return share;
@@ -171,13 +170,11 @@ Spectrum ConnectionBatch::through_volumes(const Ray& ray, float time, RayKind ki
     };
     if (met) {
         crossed_.clear();
-        double last = -kInfinity;
+        last_face_ = -kInfinity;
         for (const Hit& crossing : crossings_) {
-            // Half: the face at the last crossing must not be found again by rounding.
-            const double before = 0.5 * scale * (crossing.t - std::exchange(last, crossing.t));
             if (is_crossed(ray, crossing, time)) continue;
             pass_volume(crossing.t);
-            share = share * through(ray, time, kind, crossing, waves, &around, before);
+            share = share * through(ray, time, kind, crossing, waves, &around);
             if (share.is_black()) return share;
         }
     }
@@ -192,13 +189,16 @@ bool ConnectionBatch::is_crossed(const Ray& ray, const Hit& hit, float time) {
 }
 
 Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                  const Wavelengths& waves, MediumStack* media, double before) {
+                                  const Wavelengths& waves, MediumStack* media) {
     ShadingPoint point;
     const bool inside = media != nullptr && !media->empty();
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
-        point.way = std::min(point.way, before);
+        // Half: the last face must not be found again by rounding.
+        const double since = length(ray.direction) * (crossing.t - last_face_);
+        point.way = std::min(point.way, 0.5 * since);
+        if (!point.material->thin) last_face_ = crossing.t;
         faces_.find_next_to_sheets(point, ray.direction, arrival, mask_for(kind));
         crossed_.add(faces_.others(), crossing.t,
                      CoincidentSurfaces::reach(point.surface, ray.direction));

@@ -87,9 +87,9 @@ class ConnectionBatch {
                                            const MediumStack& media, const Wavelengths& waves,
                                            bool met, FreeFlight* flight);
     /// The transmittance of a surface. `media`: the volumes before it, then those behind it; null:
-    /// volumes are not followed. `before`: no face of another surface is nearer before it.
+    /// volumes are not followed.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                   const Wavelengths& waves, MediumStack* media, double before);
+                                   const Wavelengths& waves, MediumStack* media);
     /// True if the face of the hit was crossed with one before.
     [[nodiscard]] bool is_crossed(const Ray& ray, const Hit& hit, float time);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
@@ -111,7 +111,8 @@ class ConnectionBatch {
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
     CrossedFaces crossed_;
-    Surface surface_;  ///< of `is_crossed`
+    double last_face_ = 0;  ///< t of the last face of a volume that was crossed
+    Surface surface_;       ///< of `is_crossed`
 };
 
 }  // namespace alhazen
