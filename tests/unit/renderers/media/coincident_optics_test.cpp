@@ -359,6 +359,33 @@ TEST(CoincidentOptics, AFaceThatWasCrossedIsNotCrossedAgainWithALargeSurfaceBehi
     }
 }
 
+/// Two boxes have their lower faces at one place, with a sheet on them; a floor is lit through all.
+TEST(CoincidentOptics, ShadowRaysCrossFacesAtTheirPlaceTogetherBehindASheet) {
+    const Vec3 move{-4.321323653165139, 18.771261203697428, -25.01697733910349};
+    const Affine placed = Affine::translate(move);
+    Material sheet = clear_sheet(0.5);
+    sheet.metallic_roughness->specular.value = 0;
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{move + Vec3{0.1, 0.2, -0.5}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    const Vec3 to_light =
+        -1.0 * normalize(Vec3{-0.3703352894700126, 0.8553061622271785, -0.3623577544766736});
+    maker.light(DirectionalLight{.to_light = to_light, .color = {1, 1, 1}});
+    maker.add(BoxShape{{-47, -47, 1}, {47, 47, 2}}, maker.material(physical({1.0, 0.07})), placed);
+    maker.add(BoxShape{{-50, -50, 1}, {50, 50, 4}}, maker.material(physical({1.0, 0.15})), placed);
+    maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(sheet),
+              Affine::translate(move + Vec3{0, 0, 1}) * Affine::scale({59, 59, 59}));
+    maker.add(Rectangle{{-99, -99, -1}, {198, 0, 0}, {0, 198, 0}},
+              maker.material(testing::matt({1, 1, 1})), placed);
+    const Scene scene = maker.compile();
+    // From above the small box is entered last.
+    const double t = 0.5 * to_light.z * std::exp(-(2 * 0.15 + 0.07) / to_light.z);
+    for (const char* renderer : {"path_tracing", "bidirectional", "vcm"}) {
+        SCOPED_TRACE(renderer);
+        expect_near(testing::picture_of(scene, renderer, 1, 4).at(0, 0), {t, t, t}, 1e-6);
+    }
+}
+
 /// A ceiling is lit from below through both; shadow rays meet all faces of their way at once.
 TEST(CoincidentOptics, AFaceThatAShadowRayCrossedIsNotCrossedAgainWithALargeSurfaceBehindIt) {
     SceneMaker maker;
