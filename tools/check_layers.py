@@ -161,6 +161,10 @@ INSIDE = {
         "samplers": [""],
         "analysis": ["samplers"],
     },
+    "solids": {
+        "": [],
+        "triangles": [""],
+    },
     "session": {
         "": ["framing", "generators"],
         "conversion": [""],

@@ -16,7 +16,7 @@ namespace alhazen {
 
 inline constexpr const char* kTooManyTriangles = "needs more triangles than the limit";
 /// Result for a closed shape without patches or faces, to be tessellated from its crossings with
-/// lines (solids/solid_triangles.h).
+/// lines (solids/triangles/solid_triangles.h).
 inline constexpr const char* kNeedsLines = "has no patches";
 
 /// Appends triangles within `tolerance`, in object space, of a prepared, valid shape. Returns an

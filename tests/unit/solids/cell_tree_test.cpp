@@ -1,6 +1,6 @@
 // The octree of cells: visits find the edges between leaves, each once.
 
-#include "alhazen/solids/cell_tree.h"
+#include "alhazen/solids/triangles/cell_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Merged triangles: flat parts become few, all else keeps its distance, materials and coordinates.
 
-#include "alhazen/solids/collapsed_edges.h"
+#include "alhazen/solids/triangles/collapsed_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Triangles of solids by lines: closed, within the tolerance in both directions, with their
 // materials.
 
-#include "alhazen/solids/solid_triangles.h"
+#include "alhazen/solids/triangles/solid_triangles.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shapes/shape_tessellation.h"
-#include "alhazen/solids/solid_triangles.h"
+#include "alhazen/solids/triangles/solid_triangles.h"
 
 namespace alhazen {
 

@@ -4,7 +4,7 @@
 /// Conventions: the tolerance is in the units of the scene; inside an object it is divided by the
 /// largest stretch of the object's placements. Objects stay objects, instances stay instances;
 /// materials and names are kept. A CSG solid becomes a group of one mesh. The tessellations are
-/// described in shape_tessellation.h and solids/solid_triangles.h.
+/// described in shape_tessellation.h and solids/triangles/solid_triangles.h.
 
 #include "alhazen/scene_model/scene_description.h"
 

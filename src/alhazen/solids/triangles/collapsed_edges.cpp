@@ -1,4 +1,4 @@
-#include "alhazen/solids/collapsed_edges.h"
+#include "alhazen/solids/triangles/collapsed_edges.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "alhazen/solids/surface_line.h"
+#include "alhazen/solids/triangles/surface_line.h"
 
 #include <algorithm>
 #include <cmath>

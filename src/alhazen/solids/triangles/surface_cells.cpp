@@ -1,4 +1,4 @@
-#include "alhazen/solids/surface_cells.h"
+#include "alhazen/solids/triangles/surface_cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,9 +19,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "alhazen/solids/cell_tree.h"
 #include "alhazen/solids/solid_coordinates.h"
-#include "alhazen/solids/surface_line.h"
+#include "alhazen/solids/triangles/cell_tree.h"
+#include "alhazen/solids/triangles/surface_line.h"
 
 namespace alhazen {
 

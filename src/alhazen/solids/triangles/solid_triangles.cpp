@@ -1,4 +1,4 @@
-#include "alhazen/solids/solid_triangles.h"
+#include "alhazen/solids/triangles/solid_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "alhazen/solids/collapsed_edges.h"
 #include "alhazen/solids/solid_coordinates.h"
-#include "alhazen/solids/surface_cells.h"
+#include "alhazen/solids/triangles/collapsed_edges.h"
+#include "alhazen/solids/triangles/surface_cells.h"
 
 namespace alhazen {
 
