@@ -232,11 +232,9 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command->add_flag("--no-tuning", args->no_tuning,
                       "Do not search the best settings of each accelerator");
-    command
-        ->add_option("--time-limit", args->compare.time_limit,
-                     "Seconds for counting the rays of one accelerator, as many for timing them, "
-                     "and for its picture; what takes longer is measured on a sample")
-        ->type_name("SECONDS")
+    add_time_limit(*command, "--time-limit", args->compare.time_limit,
+                   "Time for counting the rays of one accelerator, as much for timing them, and "
+                   "for its picture; what takes longer is measured on a sample")
         ->capture_default_str()
         ->check(number_in(0.01, 1e6));
     command

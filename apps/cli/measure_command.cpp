@@ -28,7 +28,7 @@ struct MeasureArguments {
     std::vector<std::string> objects;
     std::vector<std::string> overlaps, clearances;
     std::string section, json;
-    double error = 1e-4, budget = 2;
+    double error = 1e-4, time_limit = 2;
     std::optional<double> density;
     std::uint64_t seed = 1;
     bool all = false, quiet = false;
@@ -109,7 +109,7 @@ MeasureReport measure_all(const SolidScene& scene, const MeasureArguments& args,
     }
     const std::vector<WantedPair> pairs = find_pairs(scene, args);
     const MeasureOptions options{.relative_error = args.error,
-                                 .seconds = args.budget,
+                                 .seconds = args.time_limit,
                                  .area = true,
                                  .seed = args.seed,
                                  .stop = &stop_on_signals()};
@@ -150,9 +150,9 @@ void add_measure_options(CLI::App& command, MeasureArguments& args) {
         ->type_name("E")
         ->capture_default_str()
         ->check(number_in(1e-12, 1.0));
-    command.add_option("--budget", args.budget, "Seconds for each solid at the most")
+    add_time_limit(command, "--time-limit,--budget", args.time_limit,
+                   "Time for each solid at the most; --budget is the older name")
         ->capture_default_str()
-        ->type_name("SECONDS")
         ->check(number_in(0.0, 1e9));
     command.add_option("--density", args.density, "Of all solids, instead of their materials'")
         ->type_name("X")

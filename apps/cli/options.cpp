@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "alhazen/accel/accelerator_names.h"
@@ -38,6 +39,31 @@ std::vector<int> parse_integers(const std::string& text, char separator) {
     }
 }
 
+/// The number that is all of the text.
+std::optional<double> number_of(std::string_view text) {
+    double value = 0.0;
+    const auto [read, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status != std::errc{} || read != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// The unit of time that ends the text, in seconds.
+std::optional<double> seconds_of_unit(std::string_view text) {
+    if (text.ends_with('s')) return 1.0;
+    if (text.ends_with('m')) return 60.0;
+    if (text.ends_with('h')) return 3600.0;
+    return std::nullopt;
+}
+
+/// A time in seconds, or with a unit.
+std::optional<double> seconds_in(std::string_view text) {
+    const std::optional<double> unit = seconds_of_unit(text);
+    if (unit) text.remove_suffix(1);
+    std::optional<double> value = number_of(text);
+    if (value && unit) *value *= *unit;
+    return value;
+}
+
 }  // namespace
 
 Size parse_size(const std::string& text) {
@@ -62,6 +88,21 @@ PixelBox parse_crop(const std::string& text) {
 void check_one_view(const std::string& view, const std::string& camera) {
     if (view.empty() || camera.empty()) return;
     throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
+}
+
+CLI::Validator time_in_seconds() {
+    return {[](std::string& text) {
+                const std::optional<double> seconds = seconds_in(text);
+                if (!seconds) {
+                    return fmt::format(
+                        "expected seconds, or a time with a unit, as 90s, 5m or 2h, "
+                        "not {}",
+                        text);
+                }
+                text = fmt::format("{}", *seconds);
+                return std::string();
+            },
+            ""};
 }
 
 CLI::Validator positive_number() {
@@ -200,13 +241,11 @@ void ReadArguments::add_to(CLI::App& command) {
             [this](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) read_time(text);
             },
-            takes_time_limit ? "Moment of the file's animations, a number of seconds; default: the "
-                               "pose without them. With a unit, as 90s, 5m or 2h: no round of "
-                               "samples begins that would end later"
-                             : "Moment of the file's animations; default: the pose without them")
+            fmt::format("Moment of the file's animations; default: the pose without them{}",
+                        takes_time_limit ? ". With a unit, as 5m: older form of --time-limit" : ""))
         ->expected(1)
         ->take_all()
-        ->type_name(takes_time_limit ? "SECONDS|LIMIT" : "SECONDS");
+        ->type_name("SECONDS");
     if (takes_shutter) {
         command
             .add_option("--shutter", shutter,
@@ -245,26 +284,19 @@ void ReadArguments::add_to(CLI::App& command) {
 }
 
 void ReadArguments::read_time(const std::string& text) {
-    const double seconds_of_unit = text.ends_with('s')   ? 1.0
-                                   : text.ends_with('m') ? 60.0
-                                   : text.ends_with('h') ? 3600.0
-                                                         : 0.0;
-    const bool is_limit = takes_time_limit && seconds_of_unit > 0.0;
-    const char* const end = text.data() + text.size() - (is_limit ? 1 : 0);
-    double value = 0.0;
-    const auto [read, status] = std::from_chars(text.data(), end, value);
-    const bool known =
-        status == std::errc{} && read == end && std::isfinite(value) && (!is_limit || value > 0.0);
+    const bool is_limit = takes_time_limit && seconds_of_unit(text);
+    const std::optional<double> value = is_limit ? seconds_in(text) : number_of(text);
+    const bool known = value && std::isfinite(*value) && (!is_limit || *value > 0.0);
     std::optional<double>& target = is_limit ? time_limit : time;
     if (!known || target) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--time '{}': expected {}{}", text,
                                 "a number of seconds, the moment of the animations",
-                                takes_time_limit ? ", or a limit with a unit, as 90s, 5m or 2h; "
-                                                   "each once"
+                                takes_time_limit ? ", or a limit with a unit, as 90s, 5m or 2h "
+                                                   "(older form of --time-limit); each once"
                                                  : ""));
     }
-    target = is_limit ? value * seconds_of_unit : value;
+    target = value;
 }
 
 std::optional<Shutter> ReadArguments::shutter_option() const {

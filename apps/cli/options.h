@@ -29,6 +29,18 @@ void check_one_view(const std::string& view, const std::string& camera);
 /// Accepts a number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 
+/// Reads a limit of time, seconds or with a unit (90s, 5m, 2h), as a number of seconds.
+[[nodiscard]] CLI::Validator time_in_seconds();
+
+/// Adds an option of a limit of time under these names.
+template <class Seconds>
+CLI::Option* add_time_limit(CLI::App& command, const std::string& names, Seconds& seconds,
+                            const std::string& what) {
+    return command.add_option(names, seconds, what)
+        ->type_name("90s|5m|SECONDS")
+        ->transform(time_in_seconds());
+}
+
 /// Refuses a sign, which CLI11 takes: it reads "-1" into an unsigned number as a huge one.
 [[nodiscard]] CLI::Validator unsigned_number();
 
@@ -53,8 +65,8 @@ struct ReadArguments {
     std::string scene;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
-    bool takes_time_limit = false;     ///< --time may also be a limit
-    std::optional<double> time_limit;  ///< seconds
+    bool takes_time_limit = false;     ///< --time with a unit is an older form of --time-limit
+    std::optional<double> time_limit;  ///< that of --time, seconds
     bool takes_shutter = false;        ///< the command has the option --shutter
     std::string shutter;               ///< opening and closing time; empty: not given
     std::string animation;

@@ -39,7 +39,14 @@ RenderOptions render_options(const RenderArguments& args) {
     }
     if (!args.antialias.empty()) options.antialias = parse_antialias(args.antialias);
     SamplingTexts sampling = args.sampling;
-    sampling.seconds = args.scene.time_limit;
+    if (args.scene.time_limit) {
+        if (sampling.seconds) {
+            throw Error(ErrorKind::Usage,
+                        "--time with a unit is an older form of --time-limit: expected one of "
+                        "them");
+        }
+        sampling.seconds = args.scene.time_limit;
+    }
     options.sampling = parse_sampling(sampling);
     if (args.spp) {
         options.samples_per_pixel = *args.spp;
@@ -130,8 +137,8 @@ void add_sample_options(CLI::App& command, RenderArguments& args) {
         ->capture_default_str();
     command
         .add_option("--spp", args.spp,
-                    fmt::format("Samples per pixel; default: {}. With --noise or a limit of "
-                                "--time the maximum of a pixel",
+                    fmt::format("Samples per pixel; default: {}. With --noise or --time-limit the "
+                                "maximum of a pixel",
                                 usual_samples_in_words()))
         ->type_name("N");
     command
@@ -148,6 +155,9 @@ void add_sample_options(CLI::App& command, RenderArguments& args) {
                     "their value is larger")
         ->type_name("X")
         ->check(number_in(1e-6, 10.0));
+    add_time_limit(command, "--time-limit", args.sampling.seconds,
+                   "More samples, in rounds; no round begins that would end later")
+        ->check(positive_number());
     command
         .add_option("--antialias", args.antialias,
                     "Adaptive supersampling instead of --spp: rays through the corners of the "

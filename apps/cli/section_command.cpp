@@ -28,7 +28,7 @@ struct SectionArguments {
     SvgOptions svg_options;
     std::optional<double> tolerance;
     int grid = 256;
-    double error = 1e-6, budget = 1;
+    double error = 1e-6, time_limit = 1;
     bool quiet = false;
 };
 
@@ -86,7 +86,7 @@ void check_tolerance(const Box3& box, std::optional<double> tolerance) {
 std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
                             const SectionPlane& plane, const SectionArguments& args) {
     const MeasureOptions options{
-        .relative_error = args.error, .seconds = args.budget, .area = false};
+        .relative_error = args.error, .seconds = args.time_limit, .area = false};
     std::vector<Cut> cuts;
     for (const SolidId id : chosen.solids) {
         const SectionArea area = section_area(IsolatedSolid(solids.solids(), id), plane, options);
@@ -181,9 +181,9 @@ void add_section_options(CLI::App& command, SectionArguments& args) {
         ->type_name("E")
         ->capture_default_str()
         ->check(number_in(1e-13, 1.0));
-    command.add_option("--budget", args.budget, "Seconds for the area of each solid at the most")
+    add_time_limit(command, "--time-limit,--budget", args.time_limit,
+                   "Time for the area of each solid at the most; --budget is the older name")
         ->capture_default_str()
-        ->type_name("SECONDS")
         ->check(number_in(0.0, 1e9));
     command.add_option("--json", args.json, "Write the areas as JSON; - for stdout")
         ->type_name("FILE");

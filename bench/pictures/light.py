@@ -77,7 +77,7 @@ def main():
         stats = at("stats.json")
         subprocess.run([args.alhazen, "render", at(name + ".alhazen"), "-o", at(out), "--full-float", "--size",
                         args.size, "-t", "2", "-q", "--renderer", f"{args.renderer}:depth={scenes[name].depth + 1}", "--spp",
-                        str(MANY), "--filter", FILTERS[args.filter], "--time", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
+                        str(MANY), "--filter", FILTERS[args.filter], "--time-limit", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
                         "--no-counts"], check=True)
         with open(stats, encoding="utf-8") as source:
             given = json.load(source)

@@ -8,7 +8,7 @@ def volume(radius):
     """Volume of a unit ball with a hole through its middle, and half the width of its interval."""
     solid = alhazen.Scene().add(alhazen.difference(
         alhazen.sphere(radius=1), alhazen.cylinder(base=(0, 0, -2), top=(0, 0, 2), radius=radius)))
-    (lo, hi) = solid.measure(error=1e-4, seconds=5)[0]["volume"]["interval"]
+    (lo, hi) = solid.measure(error=1e-4, time_limit=5)[0]["volume"]["interval"]
     return (lo + hi) / 2, (hi - lo) / 2
 
 

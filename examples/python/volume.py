@@ -15,7 +15,7 @@ scene = alhazen.Scene().add(
                        material="steel"))
 exact = np.pi * 10 * (50**2 - 20**2 - 6 * 4**2)
 
-report, = scene.measure("flange", error=1e-4, seconds=10)
+report, = scene.measure("flange", error=1e-4, time_limit=10)
 (lo, hi), value = report["volume"]["interval"], report["volume"]["value"]
 print(f"exact {exact:.0f} mm^3 lies in the interval: {lo <= exact <= hi}")
 print(f"the interval is narrower than 2e-4 of it: {hi - lo < 2e-4 * exact}")

@@ -53,6 +53,20 @@ class CommandLine(CommandLineCase):
             quiet.update(re.findall(r"-q,--quiet +(.*)", text))
         self.assertEqual(quiet, {"No progress, no warnings, no summary"})
 
+    def test_limits_of_time_have_units_and_older_names(self):
+        for limit in (["--time-limit", "0.1"], ["--time-limit", "0.1s"], ["--time", "0.1s"]):
+            result = self.render("--renderer", "path_tracing", *limit, "--stats", "-", size="4x3")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIsNotNone(json.loads(result.stdout)["sampling"]["rounds"], limit)
+        for name in ("--time-limit", "--budget"):
+            for limit in ("0.05", "0.05s", "0.001m"):
+                for command in (["measure"], ["section", "--plane", "0,0,1,1", "--json", self.path("s.json")]):
+                    result = run(*command, self.scene, name, limit)
+                    self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertRegex(run("measure", self.scene, "--time-limit", "2x").stderr, "expected seconds, or a time .*not 2x")
+        # At most 1e6 seconds.
+        self.assertEqual(run("compare", self.scene, "--time-limit", "1000h").returncode, 2)
+
     def test_an_option_given_twice_is_said_to_be(self):
         result = self.render("-t", "1", "-t", "2")
         self.assertEqual(result.returncode, 2)
@@ -150,6 +164,11 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--time", "5x"],
                           ["render", self.scene, "-o", picture, "--time", "0s"],
                           ["render", self.scene, "-o", picture, "--time", "3s", "--time", "1m"],
+                          ["render", self.scene, "-o", picture, "--time-limit", "0"],
+                          ["render", self.scene, "-o", picture, "--time-limit", "infs"],
+                          ["render", self.scene, "-o", picture, "--time-limit", "5 parsecs"],
+                          ["render", self.scene, "-o", picture, "--time-limit", "3s", "--time", "1m"],
+                          ["measure", self.scene, "--time-limit", "1s", "--budget", "1"],
                           ["info", self.scene, "--time", "3s"],
                           ["render", self.scene, "-o", picture, "--noise", "0.1", "--antialias", "whitted"],
                           ["render", self.scene, "-o", picture, "--sampler", "sobol", "--protocol", "spd"],
@@ -175,7 +194,7 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", self.path("out.exr"), "--tonemap", "none"],
                           ["render", self.scene, "-o", picture, "--time", "nan"],
                           ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--tolerance", "nan"],
-                          ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--budget", "nan"],
+                          ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--time-limit", "nan"],
                           ["measure", self.scene, "--error", "nan"], ["measure", self.scene, "--density", "nan"],
                           ["compare", self.scene, "--time-limit", "nan"],
                           ["compare", "--claim", "B1", "--size", "10x10"],
@@ -218,12 +237,12 @@ class CommandLine(CommandLineCase):
         self.assertIn(".nff", run("generate", "balls", "-o", self.path("balls.png")).stderr)
 
     def test_renderers_are_named_that_take_the_option(self):
-        for option, refused in (["--sampler", "sobol"], ()), (["--time", "1s"], ("sppm", "vcm", "light_tracing")):
+        for option, refused in (["--sampler", "sobol"], ()), (["--time-limit", "1s"], ("sppm", "vcm", "light_tracing")):
             message = self.render("--renderer", "cone_tracing", *option).stderr
             self.assertIn(option[0], message)
             named = message.split("renderers ")[1].split(";")[0].split(", ")
             self.assertIn("path_tracing", named)
-            self.assertEqual("vcm:merge=off" in named, option[0] == "--time")
+            self.assertEqual("vcm:merge=off" in named, option[0] == "--time-limit")
             for renderer in named:
                 result = self.render("--renderer", renderer, "--spp", "1", *option, size="2x2")
                 self.assertEqual(result.returncode, 0, result.stderr)
@@ -262,7 +281,7 @@ class CommandLine(CommandLineCase):
         size = ("--size", "8x8")
         for arguments in (("render", scene, "-o", picture, *size), ("info", scene),
                           ("convert", scene, self.path("out.ply")), ("verify", scene, "--rays", "8"),
-                          ("measure", scene, "--budget", "1"), ("spans", scene, "--ray", "0,0,1,0,0,-1"),
+                          ("measure", scene, "--time-limit", "1s"), ("spans", scene, "--ray", "0,0,1,0,0,-1"),
                           ("section", scene, "--plane", "0,0,1,0", "-o", picture, *size),
                           ("compare", scene, "--accelerators", "kd_tree", "--no-tuning", *size)):
             result = run(*arguments, "--strict")

@@ -52,9 +52,9 @@ def renderings():
 def commands():
     for scene in scenes():
         yield ["info", scene, "--all"]
-        yield ["measure", scene, "--budget", "0.1", "--quiet"]
+        yield ["measure", scene, "--time-limit", "0.1", "--quiet"]
         yield ["inside", scene, "--point", "0,0,0", "--point", "0.1,0.5,-0.2", "--quiet"]
-        yield ["section", scene, "--plane", "0,0,1,0.1", "--grid", "24", "--budget", "0.1", "--svg", "o.svg", "--quiet"]
+        yield ["section", scene, "--plane", "0,0,1,0.1", "--grid", "24", "--time-limit", "0.1", "--svg", "o.svg", "--quiet"]
         yield ["verify", scene, "--rays", "200", "--quiet"]
         yield ["explain", scene, "--pixel", "5,6", "--size", "12x12", "-o", "o.html", "--quiet"]
         yield ["vector", scene, "--size", "64x64", "--tolerance", "0.1", "-o", "o.svg", "--quiet"]
@@ -71,7 +71,7 @@ def accelerators():
             for width in ("4", "8", "16"):
                 yield ["render", path, "-o", "o.png", *SMALL, "--build", quality, "--width", width]
         yield ["render", path, "-o", "o.png", *SMALL, "--csg", "roth"]
-        for rounds in (["--time", "1s"], ["--noise", "0.1"]):
+        for rounds in (["--time-limit", "1s"], ["--noise", "0.1"]):
             yield ["render", path, "-o", "o.png", *SMALL, "--renderer", "path_tracing", "--spp", "32", *rounds]
         for layers in (["--renderer", "path_tracing:polarization=on"], ["--renderer", "path_tracing", "--spectral"], []):
             yield ["render", path, "-o", "o.exr", *SMALL, "--aov", "all", *layers]

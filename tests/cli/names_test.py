@@ -31,7 +31,7 @@ sphere { radius = 1; material = { diffuse = texture("w") } }
 
     def test_a_name_cannot_begin_a_line_of_output(self):
         scene = self.write("lines.alhazen", 'alhazen 1\n' + CAMERA + 'sphere "s\\nX: area 9" { radius = 1 }\n')
-        for arguments in (["section", scene, "--plane", "0,1,0,0.5"], ["measure", scene, "--budget", "0.05"]):
+        for arguments in (["section", scene, "--plane", "0,1,0,0.5"], ["measure", scene, "--time-limit", "0.05"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("s\\x0aX: area 9", result.stdout)

@@ -184,7 +184,7 @@ class Pictures(CommandLineCase):
     def test_an_interrupt_in_a_round_keeps_the_rounds_before(self):
         # One tile: no tile of the last round is done.
         process = self.at_work(self.scene, "-o", self.path("out.pfm"), "--size", "32x32", "-t", "1", "--renderer", "path_tracing",
-                               "--time", f"{10 * PATIENCE:.0f}s")
+                               "--time-limit", f"{10 * PATIENCE:.0f}")
         process.send_signal(signal.SIGINT)
         _, messages = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 75)

@@ -74,6 +74,14 @@ inline TriangleMesh prism(double apex) {
     return mesh;
 }
 
+/// A rectangle of two triangles.
+inline TriangleMesh rectangle_mesh(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    TriangleMesh mesh;
+    mesh.positions = {corner, corner + u, corner + u + v, corner + v};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
 inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
     Rectangle r;
     r.corner = corner;
@@ -118,6 +126,38 @@ inline Rgb mean_of(const Film& film) {
     const int n = film.frame_width();
     for (int i = 0; i < n * n; ++i) sum += film.at(i % n, i / n);
     return (1.0 / (n * n)) * sum;
+}
+
+/// How the mean of pictures is compared with a value; errors are relative to it.
+struct MeanBounds {
+    int samples = 256;
+    double largest_error = 0.0;  ///< of the mean of all pictures
+    double bias = 1e-9;          ///< beyond the errors
+    int runs = 8;                ///< pictures
+    double most_errors = 5.4;    ///< a t of 7 degrees of freedom is beyond in one of 1000 cases
+    int side = 4;                ///< of a picture
+};
+
+/// Expects the mean of pictures of several seeds.
+inline void expect_mean(const Scene& scene, const std::string& renderer, const Rgb& expected,
+                        const MeanBounds& bounds) {
+    Rgb sum, squares;
+    for (int run = 0; run < bounds.runs; ++run) {
+        const Rgb m = mean_of(
+            picture_of(scene, renderer, bounds.side, bounds.samples, std::uint64_t(1 + run)));
+        sum += m;
+        squares += m * m;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const double mean = sum[i] / bounds.runs;
+        const double error =
+            std::sqrt(std::max(0.0, squares[i] / bounds.runs - mean * mean) / (bounds.runs - 1));
+        EXPECT_LE(error, bounds.largest_error * expected[i]) << renderer << " " << i;
+        EXPECT_LE(std::abs(mean - expected[i]),
+                  bounds.most_errors * error + bounds.bias * expected[i])
+            << renderer << " " << i << ": " << mean << " +- " << error << ", expected "
+            << expected[i];
+    }
 }
 
 inline Sphere ball(const Vec3& center, double radius) {
@@ -179,10 +219,15 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
     return blocks;
 }
 
+/// A t of 22 degrees of freedom beyond it is seen in one of 10^5 draws: with three pairs of 4
+/// blocks in one of 8000 scenes.
+inline constexpr double kMostErrors = 5.7;
+
 /// Fails if the means of two renderers differ by more than `most` standard errors in a block. Of
 /// three and more, two are compared every day.
 inline void expect_same_light(const Scene& scene, const std::string& name,
-                              const std::vector<std::string>& all, int samples, double most) {
+                              const std::vector<std::string>& all, int samples,
+                              double most = kMostErrors) {
     const std::vector<std::string> renderers = to_compare(all, name);
     std::vector<Blocks> found;
     for (const std::string& r : renderers) found.push_back(blocks_of(scene, r, samples));

@@ -37,7 +37,7 @@ class Scene:
     vertices : array (n, 3), float32 or float64, scene units
     faces : array (m, 3) of integers; counterclockwise from outside
     accelerator : a name of ``alhazen.accelerators()``, or "NAME:SETTING=VALUE,..."
-    quality : quality of the tree: "fast", "default" or "high"
+    build : quality of the tree: "fast", "default" or "high" (``quality`` is its older name)
     csg : the evaluator of CSG solids
     threads : largest number of threads; 0: all cores
     folder : that file names in blocks are relative to; default: the current one when the scene is made
@@ -63,11 +63,12 @@ class Scene:
     """
 
     def __init__(self, vertices: Any = None, faces: Any = None, *, accelerator: str = "wide_bvh",
-                 quality: str = "default", csg: str = "event_heap", threads: int = 0,
+                 build: str = "default", csg: str = "event_heap", threads: int = 0,
                  folder: "str | os.PathLike[str]" = ".", allowed_folders: Sequence[str] = (),
-                 strict: bool = False) -> None:
+                 strict: bool = False, quality: Optional[str] = None) -> None:
         self._threads = _checked_threads(threads)
-        self._settings = {"accelerator": accelerator, "quality": quality, "csg": csg, "threads": self._threads,
+        build = _renamed(build, "default", quality, "build", "quality")
+        self._settings = {"accelerator": accelerator, "build": build, "csg": csg, "threads": self._threads,
                           "allowed_folders": [_absolute(f) for f in allowed_folders], "strict": strict}
         self._folder = _absolute(folder)
         self._base: Optional[_alhazen.BuiltScene] = None
@@ -324,16 +325,18 @@ class Scene:
         point_ids, and point_splits."""
         return self._scene().solids_at(points, self._at_most(threads))
 
-    def measure(self, *solids: Union[str, int], error: float = 1e-4, seconds: float = 2.0, seed: int = 1,
-                threads: Optional[int] = None) -> List[Dict[str, Any]]:
+    def measure(self, *solids: Union[str, int], error: float = 1e-4, time_limit: float = 2.0, seed: int = 1,
+                threads: Optional[int] = None, seconds: Optional[float] = None) -> List[Dict[str, Any]]:
         """Volume, area, centroid and inertia of solids, each {"value": v, "interval": [lo, hi]} with 95 % confidence.
 
         ``solids`` are names or ids; none: all. Work ends when the relative error of the volume is below ``error``, or
-        after ``seconds`` for each solid. Densities of materials give "mass". Scene units.
+        after ``time_limit`` seconds for each solid (``seconds`` is its older name). Densities of materials give "mass".
+        Scene units.
         """
+        time_limit = _renamed(time_limit, 2.0, seconds, "time_limit", "seconds")
         words = [str(s) for s in solids]
         seed = _whole(seed, "seed", 2**64 - 1)
-        text = self._scene().measure_json(words, error, seconds, seed, self._at_most(threads))
+        text = self._scene().measure_json(words, error, time_limit, seed, self._at_most(threads))
         return json.loads(text)["solids"]
 
     def section(self, normal: Sequence[float] = (0, 0, 1), offset: float = 0.0, *solids: Union[str, int],
@@ -354,8 +357,8 @@ class Scene:
                layers: Union[str, Sequence[str]] = "", depth: Optional[int] = None, seed: int = 0,
                crop: Optional[Sequence[int]] = None, environment: str = "", sampler: str = "", filter: str = "",
                antialias: str = "",
-               noise: Optional[float] = None, seconds: Optional[float] = None, threads: Optional[int] = None,
-               progress: Optional[Progress] = None) -> Picture:
+               noise: Optional[float] = None, time_limit: Optional[float] = None, threads: Optional[int] = None,
+               progress: Optional[Progress] = None, seconds: Optional[float] = None) -> Picture:
         """Renders a picture: a float32 array (height, width, 3), linear; see ``Picture``.
 
         Parameters
@@ -371,7 +374,7 @@ class Scene:
         environment : "sky", "studio", "none" or a picture file, for physically based renderers
         antialias : "whitted" or "exact", with settings as in ``alhazen render --antialias``
         sampler, filter : names as in ``alhazen list``
-        noise, seconds : stop rules; pixels with more noise get more samples
+        noise, time_limit : stop rules; pixels with more noise get more samples; seconds (``seconds``: its older name)
         progress : called as progress(phase, done, total); an exception raised by it ends the render
 
         A scene without a camera or lights gets default ones; ``picture.notes`` lists them.
@@ -383,7 +386,8 @@ class Scene:
         wishes = {"renderer": renderer, "camera": str(camera), "width": width, "height": height, "depth": depth,
                   "seed": seed, "threads": self._at_most(threads), "layers": layers, "view": view, "spp": spp,
                   "crop": None if crop is None else tuple(crop), "environment": environment, "sampler": sampler,
-                  "filter": filter, "antialias": antialias, "noise": noise, "seconds": seconds}
+                  "filter": filter, "antialias": antialias, "noise": noise,
+                  "time_limit": _renamed(time_limit, None, seconds, "time_limit", "seconds")}
         return Picture.of(self._scene().render(wishes, progress))
 
     def _repr_png_(self) -> bytes:
@@ -392,6 +396,15 @@ class Scene:
 
     def _at_most(self, threads: Optional[int]) -> int:
         return self._threads if threads is None else _checked_threads(threads)
+
+
+def _renamed(value: Any, usual: Any, older: Any, name: str, older_name: str) -> Any:
+    """The value of an argument that may be given by its older name; a ``UsageError`` if it is given by both."""
+    if older is None:
+        return value
+    if value is not usual and value != usual:
+        raise UsageError(f"{older_name} is the older name of {name}: expected one of them")
+    return older
 
 
 def _whole(number: Any, name: str, most: int) -> int:
@@ -463,12 +476,12 @@ def _warn(built: _alhazen.BuiltScene) -> None:
         warnings.warn(line, SceneWarning, stacklevel=4)
 
 
-def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", quality: str = "default",
+def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", build: str = "default",
          csg: str = "event_heap", threads: int = 0, allowed_folders: Sequence[str] = (), strict: bool = False,
-         time: Optional[float] = None) -> Scene:
+         time: Optional[float] = None, quality: Optional[str] = None) -> Scene:
     """Reads a scene file of any format of ``alhazen list formats``. ``time``: moment of its animations, seconds; the
     other parameters are those of ``Scene``. Added blocks can name its materials, textures and objects."""
-    scene = Scene(accelerator=accelerator, quality=quality, csg=csg, threads=threads,
+    scene = Scene(accelerator=accelerator, build=build, csg=csg, threads=threads, quality=quality,
                   folder=os.path.dirname(_absolute(path)), allowed_folders=allowed_folders, strict=strict)
     scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time}, _absolute(path))
     scene._built = scene._base

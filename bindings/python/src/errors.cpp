@@ -15,15 +15,16 @@ struct Argument {
     std::string_view option, name;
 };
 
-constexpr std::array<Argument, 9> kArguments = {{{"--antialias", "antialias"},
-                                                 {"--aov", "layers"},
-                                                 {"--environment", "environment"},
-                                                 {"--filter", "filter"},
-                                                 {"--noise", "noise"},
-                                                 {"--sampler", "sampler"},
-                                                 {"--spp", "spp"},
-                                                 {"--time", "seconds"},
-                                                 {"--view", "view"}}};
+constexpr std::array<Argument, 10> kArguments = {{{"--antialias", "antialias"},
+                                                  {"--aov", "layers"},
+                                                  {"--environment", "environment"},
+                                                  {"--filter", "filter"},
+                                                  {"--noise", "noise"},
+                                                  {"--sampler", "sampler"},
+                                                  {"--spp", "spp"},
+                                                  {"--time", "time_limit"},
+                                                  {"--time-limit", "time_limit"},
+                                                  {"--view", "view"}}};
 
 bool is_of_word(char c) {
     return c == '-' || (c >= 'a' && c <= 'z');

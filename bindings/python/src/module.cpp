@@ -45,7 +45,7 @@ BuildSettings settings_of(const py::dict& given) {
     BuildSettings settings;
     take(given, "accelerator", settings.accelerator, "Scene");
     take(given, "csg", settings.csg, "Scene");
-    take(given, "quality", settings.quality, "Scene");
+    take(given, "build", settings.quality, "Scene");
     take(given, "threads", settings.threads, "Scene");
     take(given, "strict", settings.strict, "Scene");
     take(given, "allowed_folders", settings.allowed_folders, "Scene");
@@ -166,7 +166,7 @@ py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::o
     take(given, "sampler", wishes.sampling.sampler);
     take(given, "filter", wishes.sampling.filter);
     take(given, "noise", wishes.sampling.noise);
-    take(given, "seconds", wishes.sampling.seconds);
+    take(given, "time_limit", wishes.sampling.seconds);
     take(given, "spp", wishes.spp);
     if (given.contains("crop") && !given["crop"].is_none()) {
         const auto [x0, y0, x1, y1] = value_of<std::tuple<int, int, int, int>>(given, "crop");

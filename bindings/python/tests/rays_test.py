@@ -276,7 +276,7 @@ class Running(unittest.TestCase):
         for query, given in ((scene.spans, rays), (scene.thickness, rays), (scene.inside, points),
                              (scene.solids_at, points), (scene.closest_points, np.tile(points, (4, 1)))):
             self.check_ends_soon(query.__name__, lambda: query(given))
-        self.check_ends_soon("measure", lambda: scene.measure(error=1e-9, seconds=20))
+        self.check_ends_soon("measure", lambda: scene.measure(error=1e-9, time_limit=20))
         self.check_ends_soon("section", lambda: scene.section((0, 0, 1), 0.013, cells=4000))
 
     def test_ctrl_c_ends_the_first_question_for_nearest_points(self):
@@ -286,7 +286,7 @@ class Running(unittest.TestCase):
         vertices = np.stack([x, y, np.sin(9 * x) * np.cos(7 * y)], axis=-1).reshape(-1, 3)
         corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).reshape(-1, 1)
         faces = np.concatenate([corner + [0, 1, side + 2], corner + [0, side + 2, side + 1]])
-        scene = alhazen.Scene(vertices, faces, quality="fast").build()
+        scene = alhazen.Scene(vertices, faces, build="fast").build()
         self.check_ends_soon("closest_points", lambda: scene.closest_points([[0, 0, 1.0]]))
         # What was given up is built again.
         self.assertEqual(scene.closest_points(vertices[:1])["distance"].tolist(), [0])
@@ -300,7 +300,7 @@ class Running(unittest.TestCase):
         faces = np.concatenate([corner + [0, 1, side + 2], corner + [0, side + 2, side + 1]])
         # Every day one of the questions: each builds the scene anew.
         for name in ("inside", "spans", "solid_names") if os.environ.get("ALHAZEN_TEST_THOROUGH") == "1" else ("spans",):
-            scene = alhazen.Scene(vertices, faces, quality="fast").build()
+            scene = alhazen.Scene(vertices, faces, build="fast").build()
             given = {"inside": ([[0, 0, 1.0]],), "spans": ([[0, 0, 9.0, 0, 0, -1]],), "solid_names": ()}[name]
             self.check_ends_soon(name, lambda: scene.solid_names if name == "solid_names" else getattr(scene, name)(*given))
             # What was given up is searched again.

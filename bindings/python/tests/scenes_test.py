@@ -81,7 +81,7 @@ class Blocks(unittest.TestCase):
         vertices, faces = cube(-1, 1)
         scene = alhazen.Scene().add(alhazen.difference("hollow", alhazen.mesh(points=vertices, faces=faces),
                                                        alhazen.sphere(radius=0.5)))
-        lo, hi = scene.measure("hollow", error=1e-3, seconds=2)[0]["volume"]["interval"]
+        lo, hi = scene.measure("hollow", error=1e-3, time_limit=2)[0]["volume"]["interval"]
         self.assertTrue(lo < 8 - np.pi / 6 < hi)
 
     def test_text_of_a_name_cannot_leave_its_block(self):
@@ -368,7 +368,7 @@ class Pictures(unittest.TestCase):
             with self.assertRaisesRegex(alhazen.UsageError, "the noise to work for is .*; expected a number above 0"):
                 scene.render(8, 6, noise=value)
             with self.assertRaisesRegex(alhazen.UsageError, "the time limit is .*; expected a number from 0"):
-                scene.render(8, 6, seconds=value)
+                scene.render(8, 6, time_limit=value)
 
     def test_settings_of_another_kind_are_usage_errors(self):
         for threads in (-1, 4097, 2**31, 2.5, "2", None):
@@ -376,8 +376,8 @@ class Pictures(unittest.TestCase):
                 alhazen.Scene(threads=threads)
         with self.assertRaisesRegex(alhazen.UsageError, "threads: expected a whole number"):
             small_scene().render(8, 6, threads=-1)
-        with self.assertRaisesRegex(alhazen.UsageError, "Scene: quality is 3, which has the wrong type"):
-            alhazen.Scene(quality=3).build()
+        with self.assertRaisesRegex(alhazen.UsageError, "Scene: build is 3, which has the wrong type"):
+            alhazen.Scene(build=3).build()
         for name in ("\ud800", "a\udfffb"):
             with self.assertRaisesRegex(alhazen.UsageError, r"is no text: it has half a pair of surrogates"):
                 alhazen.Scene().add(alhazen.sphere(name)).build()

@@ -39,13 +39,13 @@ class Solids(unittest.TestCase):
         self.assertEqual(found["on_surface"].tolist(), [True, False])
 
     def test_intervals_of_measures_hold_the_truth(self):
-        ball, ring = self.scene.measure(error=1e-3, seconds=1)
+        ball, ring = self.scene.measure(error=1e-3, time_limit=1)
         for report, volume in ((ball, 4 / 3 * np.pi), (ring, 8 - np.pi * 0.5)):
             lo, hi = report["volume"]["interval"]
             self.assertLess(lo, volume)
             self.assertGreater(hi, volume)
             self.assertLess(hi - lo, 0.01 * volume)
-        named, = self.scene.measure("ring", error=1e-2, seconds=1)
+        named, = self.scene.measure("ring", error=1e-2, time_limit=1)
         self.assertEqual(named["name"], "ring")
 
     def test_sections_enclose_the_area_of_the_cut(self):
@@ -62,13 +62,25 @@ class Solids(unittest.TestCase):
         with self.assertRaisesRegex(alhazen.SceneError, "the scene has no solid"):
             alhazen.Scene(vertices, faces[:-1]).measure()
 
+    def test_older_names_of_arguments_are_taken(self):
+        vertices, faces = cube()
+        scene = alhazen.Scene(vertices, faces, quality="fast")
+        self.assertEqual(scene._settings["build"], "fast")
+        self.assertEqual(len(scene.measure(seconds=0.1)), 1)
+        self.assertEqual(scene.render(4, 3, spp=2, seconds=0.1).shape, (3, 4, 3))
+        for wrong in (lambda: alhazen.Scene(vertices, faces, build="high", quality="fast"),
+                      lambda: scene.measure(time_limit=1, seconds=1),
+                      lambda: scene.render(4, 3, time_limit=1, seconds=1)):
+            with self.assertRaisesRegex(alhazen.UsageError, "is the older name of (build|time_limit): expected one"):
+                wrong()
+
     def test_limits_of_measures_are_numbers_from_zero(self):
         ball = alhazen.Scene().add(alhazen.sphere())
         for value in (-1, float("nan"), -float("inf")):
             with self.assertRaisesRegex(alhazen.UsageError, "the time limit is .*; expected a number from 0"):
-                ball.measure(error=1e-2, seconds=value)
+                ball.measure(error=1e-2, time_limit=value)
             with self.assertRaisesRegex(alhazen.UsageError, "the relative error is .*; expected a number from 0"):
-                ball.measure(error=value, seconds=0.1)
+                ball.measure(error=value, time_limit=0.1)
         for seed in (-1, 2**64, 0.5, "1"):
             with self.assertRaisesRegex(alhazen.UsageError, "seed: expected a whole number from 0 to"):
                 ball.measure(seed=seed)

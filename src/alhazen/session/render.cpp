@@ -258,19 +258,19 @@ void check_sampling(const RenderOptions& options, const Renderer& renderer) {
             ErrorKind::Usage,
             fmt::format(
                 "{} are for the renderers {}{}; renderer '{}' has samples of its own",
-                rounds ? "--noise and a limit of --time" : "--sampler and --filter",
+                rounds ? "--noise and --time-limit" : "--sampler and --filter",
                 renderers_where(rounds ? &Renderer::renders_in_rounds : &Renderer::takes_samplers),
                 rounds ? ", vcm:merge=off" : "", options.renderer));
     }
     if (options.antialias) {
         throw Error(ErrorKind::Usage,
                     "--antialias chooses the samples of each pixel: it excludes --sampler, "
-                    "--filter, --noise and a limit of --time");
+                    "--filter, --noise and --time-limit");
     }
     if (options.sampling->has_rounds() && options.aovs.has_costs()) {
         throw Error(ErrorKind::Usage,
-                    "--noise and --time render in rounds: --aov time and counts are for a fixed "
-                    "--spp");
+                    "--noise and --time-limit render in rounds: --aov time and counts are for a "
+                    "fixed --spp");
     }
 }
 

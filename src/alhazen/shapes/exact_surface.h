@@ -7,7 +7,7 @@
 /// Differs: placements may be any affine transform, which preserves quadrics and planes though not
 /// nearest points; a torus requires a similarity transform.
 /// ADD A SHAPE HERE: a branch of `refusal_of` and an overload of `PieceMaker::add` in
-/// exact_surface.cpp.
+/// exact_surface_pieces.cpp.
 /// Conventions: points and normals are in world space; normals are outward for closed shapes. The
 /// error of a distance is some roundings of the largest coordinate, including that of the query
 /// point (tests/unit/shapes/nearest_test.cpp). It is larger for obliquely stretched cones and

@@ -11,22 +11,23 @@
 #include <vector>
 
 #include "alhazen/base/error.h"
-#include "alhazen/cameras/pixel_cones.h"
+#include "alhazen/geometry/cones/disc_area.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/cone_tracing/cone_scene.h"
-#include "alhazen/renderers/cone_tracing/cone_tracer.h"
-#include "alhazen/renderers/cone_tracing/cone_tree.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/image_texture.h"
 #include "support/odd_even_area.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 #include "unit/renderers/unit_pixels.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::glowing;
 using testing::SceneMaker;
 using testing::unit_pixels;
+using testing::upright;
 
 /// Of the cone of a pixel of side 1.
 const double kRadius = std::sqrt(1 / kPi);
@@ -39,16 +40,6 @@ Film picture_of(SceneMaker& maker, const Camera& camera, int width, int height,
         .scene = scene, .camera = camera, .description = &maker.description(), .control = control};
     EXPECT_TRUE(ConeTracing(options).render(job, film).complete());
     return film;
-}
-
-Material glowing(const Rgb& color) {
-    Material material;
-    material.emission.color = color;
-    return material;
-}
-
-Rectangle upright(double left, double right, double z = 0) {
-    return {.corner = {left, -9, z}, .edge_u = {right - left, 0, 0}, .edge_v = {0, 18, 0}};
 }
 
 double one_pixel(SceneMaker& maker) {
@@ -428,54 +419,6 @@ TEST(ConeTracing, AFlatMirrorShowsTheMirroredScene) {
     }
 }
 
-/// A tracer of a scene of occluders only.
-struct Blockers {
-    Scene scene;
-    ConeScene geometry;
-    Camera camera = unit_pixels(1);
-    RenderJob job;
-    RayCounters counters;
-    ConeTracer tracer;
-
-    explicit Blockers(SceneMaker& maker)
-        : scene(maker.compile()),
-          geometry(cone_scene(maker.description(), scene)),
-          job{.scene = scene, .camera = camera, .description = &maker.description()},
-          tracer(job, geometry, false, counters) {}
-
-    /// Share of a sphere of light that is seen from outside of it.
-    double share(const Vec3& point, const Vec3& light, double radius) {
-        const double distance = length(light - point);
-        const double spread = radius / std::sqrt((distance - radius) * (distance + radius));
-        ConeStart start;
-        start.kind = RayKind::Shadow;
-        start.range.z_max = distance;
-        return tracer.let_through({point, (light - point) / distance, 0.0, spread}, start).r;
-    }
-};
-
-TEST(ConeTracing, ThePenumbraOfASphereOfLightBehindAnEdgeIsItsSegment) {
-    SceneMaker maker;
-    maker.add(upright(0, 9, 5.0), maker.material(glowing({1, 1, 1})));
-    Blockers blockers(maker);
-    const double R = 0.3, D = 10;
-    for (double x = -0.6; x <= 0.6; x += 0.05) {
-        // In the cone towards the light the edge is a line, at 5 of 10.
-        const double tangent = R / std::sqrt(D * D - R * R);
-        const double h = -x / (5.0 * tangent);
-        const double seen = 1.0 - segment_area(1.0, h) / kPi;
-        EXPECT_NEAR(blockers.share({x, 0, 0}, {x, 0, D}, R), seen, 1e-9) << x;
-    }
-}
-
-TEST(ConeTracing, LightInFrontOfABlockerIsNotBlocked) {
-    SceneMaker maker;
-    maker.add(upright(-9, 9, 5.0), maker.material(glowing({1, 1, 1})));
-    Blockers blockers(maker);
-    EXPECT_EQ(blockers.share({0, 0, 0}, {0, 0, 4.9}, 0.1), 1.0);
-    EXPECT_NEAR(blockers.share({0, 0, 0}, {0, 0, 5.1}, 0.1), 0.0, 1e-12);
-}
-
 TEST(ConeTracing, TheEdgeOfAShadowCrossesAPixel) {
     SceneMaker maker;
     Material white;
@@ -514,41 +457,6 @@ TEST(ConeTracing, InstancesUnderAnyPlacementAreTheMovedMesh) {
         }
     }
     EXPECT_GT(lit, 1.0);
-}
-
-TEST(ConeTree, HoldsBoxesThatAreHardlyApart) {
-    for (const double apart : {0.0, 1e-320, 1e-310, 1e-300, 1.0}) {
-        std::vector<Box3> boxes;
-        for (int i = 0; i < 9; ++i) boxes.push_back({{i * apart, 0, 0}, {i * apart, 0, 0}});
-        const ConeTree tree(boxes);
-        std::vector<bool> found(boxes.size(), false);
-        std::vector<std::uint32_t> open{0};
-        while (!open.empty()) {
-            const ConeTree::Node& node = tree.node(open.back());
-            open.pop_back();
-            for (std::uint32_t k = 0; k < node.count; ++k) found[tree.item(node.first + k)] = true;
-            if (node.count == 0) open.insert(open.end(), {node.first, node.first + 1});
-        }
-        EXPECT_EQ(std::count(found.begin(), found.end(), true), 9) << apart;
-    }
-}
-
-TEST(PixelCones, HaveTheAreaOfTheirPixels) {
-    const Camera camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.5);
-    const PixelCones cones(camera, 300, 200, 1);
-    double sum = 0;
-    for (int j = 0; j < 200; ++j) {
-        for (int i = 0; i < 300; ++i) {
-            const ConeRay cone = cones.at({(i + 0.5) / 300, (j + 0.5) / 200});
-            sum += kPi * cone.spread * cone.spread;
-        }
-    }
-    // The solid angle of the picture.
-    const double h = std::tan(0.5), w = 1.5 * h;
-    EXPECT_NEAR(sum, 4 * std::asin(std::sin(std::atan(w)) * std::sin(std::atan(h))), 1e-4);
-    const RayCone eye = eye_cone(camera, 200, 4);
-    EXPECT_EQ(eye.width, 0.0);
-    EXPECT_EQ(eye.spread, central_cone(camera, 200, 4).footprint().spread);
 }
 
 }  // namespace

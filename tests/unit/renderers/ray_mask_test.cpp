@@ -7,6 +7,7 @@
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
+#include "support/show_last_to.h"
 #include "unit/renderers/one_pixel.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -16,6 +17,7 @@ using testing::center;
 using testing::glowing;
 using testing::Random;
 using testing::SceneMaker;
+using testing::show_last_to;
 
 constexpr RayMask kEye = mask_of(RayKind::Eye), kShadow = mask_of(RayKind::Shadow),
                   kReflection = mask_of(RayKind::Reflection),
@@ -25,9 +27,6 @@ Material white() {
     Material m;
     m.diffuse.color = {1, 1, 1};
     return m;
-}
-void show_last_to(SceneMaker& maker, RayMask mask, ObjectIndex object = ObjectIndex{0}) {
-    maker.description().objects[static_cast<std::size_t>(object)].parts.back().visible_to = mask;
 }
 
 /// A wall behind a ball, both between the camera and a light that stands behind it.

@@ -10,11 +10,13 @@
 
 #include "alhazen/base/error.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/stop_after.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
+using testing::StopAfter;
 
 /// Fills the discs that spheres cover, one scan line after the other: seen by parallel rays along
 /// -z, one unit of the scene per pixel. Reads the description; the last sphere is in front.
@@ -43,20 +45,6 @@ class DiscPainter final : public Renderer {
         }
         return report;
     }
-};
-
-/// Requests a stop after some parts.
-class StopAfter final : public ProgressSink {
-  public:
-    explicit StopAfter(std::size_t parts) : parts_(parts) {}
-    StopFlag stop;
-
-    void update(std::string_view, std::size_t done, std::size_t) override {
-        if (done == parts_) stop.request();
-    }
-
-  private:
-    std::size_t parts_;
 };
 
 TEST(RendererList, DepthBecomesASettingOfWhatFollowsPaths) {
@@ -131,6 +119,17 @@ TEST(Renderer, EveryOneOfTheTableIsMadeByItsName) {
         EXPECT_EQ(make_renderer(name)->needs_aggregate(), traces_rays) << name;
     }
     EXPECT_THROW((void)make_renderer("wited"), Error);
+}
+
+TEST(RendererSettings, AreCheckedByTheirRenderer) {
+    EXPECT_NO_THROW((void)make_renderer("lane_carpenter:flatness=0.5,cracks=show,split=both"));
+    EXPECT_NO_THROW((void)make_renderer("clark"));
+    for (const char* text :
+         {"lane_carpenter:flatness=0", "lane_carpenter:flatness=x", "lane_carpenter:cracks=none",
+          "lane_carpenter:flat=1", "lane_carpenter:flatness", "lane_carpenter:split=one,split=one",
+          "whitted:flatness=1", "lane"}) {
+        EXPECT_THROW((void)make_renderer(text), Error) << text;
+    }
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <random>
 
-#include "alhazen/cameras/eye_rays.h"
-#include "alhazen/imaging/film/finite_mean.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -188,35 +185,6 @@ TEST(TiledRenderer, AStopLeavesTheTilesThatAreNotDoneBlack) {
         done += same;
     }
     EXPECT_EQ(done, 2u);
-}
-
-TEST(FiniteMean, IsTheMeanOfTheFiniteSamples) {
-    FiniteMean mean;
-    EXPECT_EQ(mean.value(), Rgb{});
-    EXPECT_TRUE(mean.add({1, 2, 3}));
-    EXPECT_EQ(mean.value(), (Rgb{1, 2, 3}));
-    EXPECT_FALSE(mean.add({0, std::numeric_limits<double>::quiet_NaN(), 0}));
-    EXPECT_FALSE(mean.add({std::numeric_limits<double>::infinity(), 0, 0}));
-    EXPECT_TRUE(mean.add({3, 0, 1}));
-    EXPECT_EQ(mean.value(), (Rgb{2, 1, 2}));
-}
-
-TEST(EyeRays, AreThoseOfTheFormulaOfTheirCamera) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> number(-2.0, 2.0);
-    const auto vec = [&] { return Vec3{number(random), number(random), number(random)}; };
-    for (int i = 0; i < 200; ++i) {
-        const PerspectiveCamera p{vec(), vec(), vec(), vec()};
-        const OrthographicCamera o{vec(), vec(), vec(), vec()};
-        const double x = number(random), y = number(random);
-        const EyeRays a{Camera(p)}, b{Camera(o)};
-        const Ray ray = a.ray(a.column(x) + a.row(y));
-        EXPECT_EQ(ray.origin, p.eye);
-        EXPECT_EQ(ray.direction, normalize(p.look + (x - 0.5) * p.right + (y - 0.5) * p.up));
-        const Ray parallel = b.ray(b.column(x) + b.row(y));
-        EXPECT_EQ(parallel.origin, o.origin + (x - 0.5) * o.right + (y - 0.5) * o.up);
-        EXPECT_EQ(parallel.direction, normalize(o.direction));
-    }
 }
 
 TEST(MaterialCache, GivesTheSampleOfEachMaterialThatIsTheSameEverywhere) {

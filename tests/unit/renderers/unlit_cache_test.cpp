@@ -7,17 +7,13 @@
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::glowing;
 using testing::SceneMaker;
-
-Material glowing(const Rgb& color) {
-    Material m;
-    m.emission.color = color;
-    return m;
-}
 
 /// Expects for random rays around the origin that the cached colour is that of the surface, and
 /// exists exactly for the materials marked in `flat` by index. Returns the number of such hits.

@@ -116,7 +116,7 @@ RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
     if (plan.has_rounds()) {
         throw Error(ErrorKind::Usage,
                     "light_tracing traces a fixed number of paths: it takes --spp, not --noise "
-                    "or a limit of --time");
+                    "or --time-limit");
     }
     const Illumination lights(job.scene);
     // Adds the directly visible lights.

@@ -60,8 +60,8 @@ void refuse_stop_rules(const RenderJob& job, const char* renderer) {
     refuse_shared_samples(*job.sampling, renderer);
     if (!job.sampling->has_rounds()) return;
     throw Error(ErrorKind::Usage,
-                fmt::format("{} traces a fixed number of passes: it takes --spp, not --noise or a "
-                            "limit of --time",
+                fmt::format("{} traces a fixed number of passes: it takes --spp, not --noise or "
+                            "--time-limit",
                             renderer));
 }
 

@@ -6,42 +6,32 @@
 
 #include "alhazen/formats/obj/mtl_reader.h"
 #include "alhazen/imaging/codecs/image_io.h"
-#include "support/image_texture.h"
 #include "support/random.h"
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
+#include "unit/formats/obj/obj_texts.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
+using testing::kObjSquare;
 using testing::mentions;
+using testing::obj_scene;
 using testing::TemporaryFolder;
 using testing::text_of;
-
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-
-/// The validated scene of an OBJ text whose files lie in `folder`.
-SceneDescription scene_of(const std::string& text, Diagnostics& found,
-                          const std::filesystem::path& folder = "nowhere") {
-    SceneDescription scene = import_text(text, folder / "a.obj", found);
-    if (found.error_count() == 0) {
-        Diagnostics invalid;
-        validate(scene, invalid);
-        EXPECT_EQ(invalid.error_count(), 0u) << text_of(invalid);
-    }
-    return scene;
-}
+using testing::WithPicture;
 
 /// The material of `usemtl m` with this MTL text.
 Material material_of(const std::string& mtl, Diagnostics& found) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\n" + mtl);
     const SceneDescription scene =
-        scene_of("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1 2 3 4\n", found, folder.path());
+        obj_scene("mtllib a.mtl\n" + kObjSquare + "usemtl m\nf 1 2 3 4\n", found, folder.path());
     EXPECT_EQ(found.error_count(), 0u) << text_of(found);
     return scene.materials.at(0).material;
 }
+
 Material material_of(const std::string& mtl) {
     Diagnostics found;
     const Material m = material_of(mtl, found);
@@ -52,10 +42,10 @@ Material material_of(const std::string& mtl) {
 TEST(ObjScene, PartsAreNamedByObjectGroupAndMaterialAndEqualOnesMerge) {
     Diagnostics found;
     const SceneDescription scene =
-        scene_of(kSquare +
-                     "f 1 2 3\no box one\nf 1 2 3\ng lid\nf 1 2 4\nusemtl red\nf 1 3 4\ng side\n"
-                     "f 2 3 4\ng lid\nf 1 2 3\no box two\nf 1 2 3\n",
-                 found);
+        obj_scene(kObjSquare +
+                      "f 1 2 3\no box one\nf 1 2 3\ng lid\nf 1 2 4\nusemtl red\nf 1 3 4\ng side\n"
+                      "f 2 3 4\ng lid\nf 1 2 3\no box two\nf 1 2 3\n",
+                  found);
     std::vector<std::string> names;
     for (const Part& part : scene.objects.at(0).parts) names.push_back(part.name);
     EXPECT_EQ(names, (std::vector<std::string>{"a", "box one", "box one/lid", "box one/lid",
@@ -66,11 +56,11 @@ TEST(ObjScene, PartsAreNamedByObjectGroupAndMaterialAndEqualOnesMerge) {
 }
 
 TEST(ObjScene, AMillionSwitchesOfMaterialAreTwoParts) {
-    std::string text = kSquare;
+    std::string text = kObjSquare;
     for (int i = 0; i < 500'000; ++i) text += "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n";
     Diagnostics found;
     const auto start = std::chrono::steady_clock::now();
-    const SceneDescription scene = scene_of(text, found);
+    const SceneDescription scene = obj_scene(text, found);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(scene.meshes.size(), 2u);
@@ -79,10 +69,10 @@ TEST(ObjScene, AMillionSwitchesOfMaterialAreTwoParts) {
 }
 
 TEST(ObjScene, TooManyGroupsAreMergedByMaterial) {
-    std::string text = kSquare;
+    std::string text = kObjSquare;
     for (int i = 0; i < 150'000; ++i) text += "g " + std::to_string(i) + "\nf 1 2 3\n";
     Diagnostics found;
-    const SceneDescription scene = scene_of(text, found);
+    const SceneDescription scene = obj_scene(text, found);
     EXPECT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.meshes.at(0).mesh->triangles.size(), 150'000u);
     EXPECT_TRUE(mentions(found, "merged by material")) << text_of(found);
@@ -95,7 +85,7 @@ TEST(ObjScene, FilesWithoutFacesAreErrorsThatSaySo) {
         EXPECT_GT(found.error_count(), 0u) << text;
         return text_of(found);
     };
-    EXPECT_NE(finding(kSquare).find("4 points but no faces"), std::string::npos);
+    EXPECT_NE(finding(kObjSquare).find("4 points but no faces"), std::string::npos);
     EXPECT_NE(finding("").find("is empty"), std::string::npos);
     EXPECT_NE(finding(std::string_view("\x7f"
                                        "ELF\0\0",
@@ -176,171 +166,6 @@ TEST(ObjScene, MetallicRoughnessStatementsAreKept) {
     EXPECT_FALSE(material_of("Kd 1 1 1\n").metallic_roughness);
 }
 
-/// A folder with a small image and an OBJ whose material uses it as `map`.
-struct WithPicture {
-    TemporaryFolder folder;
-    Diagnostics found;
-    SceneDescription scene;
-    explicit WithPicture(const std::string& mtl, const std::string& picture = "my pic.png") {
-        std::filesystem::create_directories((folder.path() / picture).parent_path());
-        Image image(2, 2, 3);
-        image.linear = false;
-        for (float& s : image.samples) s = 0.5f;
-        write_image(folder.path() / picture, image, {});
-        folder.write("lib/a b.mtl", "newmtl my material\n" + mtl);
-        scene = scene_of(
-            "mtllib lib/a b.mtl\n" + kSquare + "vt 0 0\nusemtl my material  \nf 1/1 2/1 3/1\n",
-            found, folder.path());
-    }
-    [[nodiscard]] const Material& material() const { return scene.materials.at(0).material; }
-    [[nodiscard]] const ImageTexture& texture(TextureId id) const {
-        return testing::image_texture(scene.textures.at(std::size_t(id)));
-    }
-};
-
-TEST(ObjScene, PicturesAreFoundWithBlanksOptionsAndOtherCapitals) {
-    for (const char* name :
-         {"my pic.png", "MY PIC.PNG", "-o 0.25 .5 -s 2 3 1 my pic.png", "my pic.png -bm 1.5",
-          "-blendu on -blendv off -mm 0 1 -imfchan r -texres 64 -cc on my pic.png",
-          "..\\lib\\my pic.png", "C:\\art\\textures\\my pic.png", "\"my pic.png\"",
-          "/home/me/my pic.png"}) {
-        const WithPicture s("map_Kd " + std::string(name) + "\nKd 0 0 0\n");
-        ASSERT_EQ(s.scene.textures.size(), 1u) << name << text_of(s.found);
-        EXPECT_EQ(s.material().diffuse.color, (Rgb{1, 1, 1})) << name;
-        EXPECT_EQ(s.texture(s.material().diffuse.texture).decode_srgb, true);
-        EXPECT_EQ(s.material().ambient.texture, s.material().diffuse.texture);
-        if (std::string(name).starts_with("-o")) {
-            const UvTransform& t = s.texture(s.material().diffuse.texture).uv_transform;
-            EXPECT_EQ(t.apply({1, 1}), (Vec2{2.25, 3.5}));
-        }
-    }
-}
-
-TEST(ObjScene, AnAmbientPictureCountsAloneBesideABlackOrMissingColour) {
-    for (const char* black : {"", "Ka 0 0 0\n"}) {
-        const WithPicture s(black + std::string("Kd .5 .5 .5\nmap_Ka my pic.png\n"));
-        EXPECT_EQ(text_of(s.found), "");
-        EXPECT_EQ(s.material().ambient.color, (Rgb{1, 1, 1}));
-        ASSERT_NE(s.material().ambient.texture, kNoTexture);
-        EXPECT_EQ(s.material().diffuse.texture, kNoTexture);
-        // Without the picture the ambient colour is the diffuse one.
-        const WithPicture gone(black + std::string("Kd .5 .5 .5\nmap_Ka gone.png\n"));
-        EXPECT_TRUE(mentions(gone.found, "'gone.png'")) << text_of(gone.found);
-        EXPECT_EQ(gone.material().ambient.color, (Rgb{.5, .5, .5}));
-    }
-    const WithPicture both("Ka .25 .5 1\nmap_Ka my pic.png\nKd 1 1 1\n");
-    EXPECT_EQ(both.material().ambient.color, (Rgb{.25, .5, 1}));
-    EXPECT_NE(both.material().ambient.texture, kNoTexture);
-}
-
-TEST(ObjScene, FacesWithoutCoordinatesHaveThePicturesAtTheOrigin) {
-    const TemporaryFolder folder;
-    Image image(2, 2, 3);
-    write_image(folder.path() / "p.png", image, {});
-    folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd p.png\nnewmtl plain\nKd 1 1 1\n");
-    const std::string start = "mtllib a.mtl\n" + kSquare + "vt .75 .25\n";
-    const auto uvs_of = [&](const std::string& faces, bool told) {
-        Diagnostics found;
-        const SceneDescription scene = scene_of(start + faces, found, folder.path());
-        EXPECT_EQ(found.warning_count(), told ? 1u : 0u) << faces << text_of(found);
-        EXPECT_EQ(mentions(found, "a.obj:8: warning: the mesh 'm' has faces without texture"), told)
-            << text_of(found);
-        Diagnostics none;
-        validate(scene, none);
-        EXPECT_EQ(text_of(none), "");
-        return scene.meshes.at(0).mesh->uvs;
-    };
-    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\n", true), std::vector<Vec2>(4));
-    EXPECT_EQ(uvs_of("usemtl m\nf 1 2 3 4\nf 1/1 2/1 3/1\n", true),
-              (std::vector<Vec2>{{}, {}, {}, {}, {.75, .25}, {.75, .25}, {.75, .25}}));
-    EXPECT_EQ(uvs_of("usemtl m\nf 1/1 2/1 3/1\n", false), std::vector<Vec2>(3, {.75, .25}));
-    EXPECT_TRUE(uvs_of("usemtl plain\nf 1 2 3 4\n", false).empty());
-}
-
-TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
-    const WithPicture s(
-        "Kd .5 .5 .5\nKs 1 1 1\nNs 10\nmap_Ns my pic.png\nmap_d -imfchan g my pic.png\n"
-        "norm -bm 2 my pic.png\nmap_Pr -clamp on my pic.png\n");
-    const Material& m = s.material();
-    EXPECT_EQ(text_of(s.found), "");
-    EXPECT_EQ(m.alpha_mode, AlphaMode::Blend);
-    EXPECT_EQ(m.alpha.channel, Channel::Green);
-    EXPECT_EQ(m.normal_map.scale, 2.0);
-    EXPECT_FALSE(s.texture(m.normal_map.texture).decode_srgb);
-    EXPECT_FALSE(s.texture(m.shininess.texture).decode_srgb);
-    ASSERT_TRUE(m.metallic_roughness);
-    EXPECT_EQ(s.texture(m.metallic_roughness->roughness.texture).wrap_u, Wrap::Clamp);
-}
-
-/// An OBJ with materials "m0", "m1" ... of these statements, a height map h.png (a ramp), and a
-/// normal map n.png.
-struct WithBumps {
-    TemporaryFolder folder;
-    Diagnostics found;
-    SceneDescription scene;
-    explicit WithBumps(const std::vector<std::string>& materials) {
-        Image heights(8, 4, 1), directions(8, 4, 3);
-        heights.linear = directions.linear = false;
-        for (int x = 0; x < 8; ++x) {
-            for (int y = 0; y < 4; ++y) {
-                *heights.pixel(x, y) = float(x) / 8;
-                for (int k = 0; k < 3; ++k) directions.pixel(x, y)[k] = k == 2 ? 1.0f : 0.5f;
-            }
-        }
-        write_image(folder.path() / "h.png", heights, {});
-        write_image(folder.path() / "n.png", directions, {});
-        std::string mtl, obj = "mtllib a.mtl\n" + kSquare + "vt 0 0\n";
-        for (std::size_t i = 0; i < materials.size(); ++i) {
-            const std::string name = "m" + std::to_string(i) + "\n";
-            mtl += "newmtl " + name + "Kd 1 1 1\n" + materials[i];
-            obj += "usemtl " + name + "f 1/1 2/1 3/1\n";
-        }
-        folder.write("a.mtl", mtl);
-        scene = scene_of(obj, found, folder.path());
-        EXPECT_EQ(text_of(found), "");
-    }
-    [[nodiscard]] const NormalMap& map(std::size_t i) const {
-        return scene.materials.at(i).material.normal_map;
-    }
-    [[nodiscard]] const ImageTexture& texture(std::size_t i) const {
-        return testing::image_texture(scene.textures.at(std::size_t(map(i).texture)));
-    }
-};
-
-TEST(ObjScene, HeightsBecomeNormalsOnceForEachStrength) {
-    const WithBumps s({"bump h.png\n", "map_Bump -s 2 2 2 h.png\n", "map_bump h.png -bm 3\n",
-                       "map_bump -clamp on h.png\n", "map_bump -imfchan m h.png\n",
-                       "map_bump h.png -bm 0\n"});
-    EXPECT_EQ(s.texture(0).image, s.texture(1).image);
-    EXPECT_EQ(s.texture(1).uv_transform.uu, 2.0);
-    EXPECT_NE(s.texture(2).image, s.texture(0).image);
-    EXPECT_NE(s.texture(3).image, s.texture(0).image);
-    EXPECT_EQ(s.texture(3).wrap_u, Wrap::Clamp);
-    for (std::size_t i = 0; i < 5; ++i) {
-        EXPECT_EQ(s.map(i).scale, 1.0);
-        EXPECT_FALSE(s.texture(i).decode_srgb);
-        EXPECT_EQ(s.texture(i).image->channels, 3);
-        EXPECT_EQ(s.texture(i).image->width, 8);
-    }
-    // The heights rise to the right, so the normals lean to the left; alpha is 1 everywhere.
-    EXPECT_LT(s.texture(0).image->pixel(9, false).r, 0.5);
-    EXPECT_LT(s.texture(2).image->pixel(9, false).r, s.texture(0).image->pixel(9, false).r);
-    EXPECT_NEAR(s.texture(4).image->pixel(9, false).r, 0.5, 0.003);
-    EXPECT_EQ(s.map(5).texture, kNoTexture);
-}
-
-TEST(ObjScene, BumpMapsOfDirectionsAreNormalMaps) {
-    const WithBumps s({"map_bump -bm 0.5 n.png\n", "norm -bm 2 h.png\n", "norm n.png\nbump h.png\n",
-                       "bump h.png\nnorm gone/../n.png\n", "map_bump -imfchan b n.png\n"});
-    EXPECT_EQ(s.map(0).scale, 0.5);
-    EXPECT_EQ(s.texture(0).image->pixel(0, false).b, 1.0);
-    EXPECT_EQ(s.map(1).scale, 2.0);  // declared as a normal map
-    EXPECT_EQ(s.texture(1).image->channels, 1);
-    EXPECT_EQ(s.texture(2).image, s.texture(0).image);
-    EXPECT_EQ(s.texture(3).image, s.texture(0).image);
-    EXPECT_NE(s.texture(4).image, s.texture(0).image);  // a selected channel implies heights
-}
-
 TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
     const WithPicture picture("map_Kd gone.png\nbump lost.png\nKd .5 .5 .5\n");
     EXPECT_EQ(picture.material().diffuse.texture, kNoTexture);
@@ -358,9 +183,9 @@ TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
     folder.write("bad.png", "not a picture");
     folder.write("three.mtl", "newmtl c\nmap_Kd bad.png\n");
     const SceneDescription scene =
-        scene_of("mtllib one.mtl gone.mtl two\\ words.mtl three.mtl\n" + kSquare +
-                     "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n",
-                 found, folder.path());
+        obj_scene("mtllib one.mtl gone.mtl two\\ words.mtl three.mtl\n" + kObjSquare +
+                      "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n",
+                  found, folder.path());
     ASSERT_EQ(scene.materials.size(), 3u);
     EXPECT_EQ(scene.materials[1].material.diffuse.color, (Rgb{0, 1, 0}));
     EXPECT_TRUE(mentions(found, "the material file 'gone.mtl' does not exist")) << text_of(found);
@@ -379,8 +204,8 @@ TEST(ObjScene, ACommentBehindTheNameOfAMaterialIsNoPartOfItUnlessItsNameHasIt) {
                  "newmtl a # one\nKd 1 0 0\nnewmtl b\nKd 0 1 0\nnewmtl b #2\nKd 0 0 1\n"
                  "newmtl c\t#3\nKd 1 1 0\nnewmtl d#\nKd 1 0 1\n");
     const auto color = [&](const std::string& name) {
-        const SceneDescription scene = scene_of(
-            "mtllib a.mtl\n" + kSquare + "usemtl " + name + "\nf 1 2 3\n", found, folder.path());
+        const SceneDescription scene = obj_scene(
+            "mtllib a.mtl\n" + kObjSquare + "usemtl " + name + "\nf 1 2 3\n", found, folder.path());
         return scene.materials.at(0).material.diffuse.color;
     };
     EXPECT_EQ(color("a"), (Rgb{1, 0, 0}));
@@ -400,7 +225,7 @@ TEST(ObjScene, NamesThatDifferByACommentAreOnePartOfOneMaterial) {
         folder.write("a.mtl", mtl);
         Diagnostics found;
         const SceneDescription scene =
-            scene_of("mtllib a.mtl\n" + kSquare + names, found, folder.path());
+            obj_scene("mtllib a.mtl\n" + kObjSquare + names, found, folder.path());
         std::string text = std::to_string(scene.materials.size()) + ":";
         for (const MeshDescription& mesh : scene.meshes) {
             text += " '" + mesh.name + "' " + std::to_string(mesh.mesh->triangles.size());
@@ -467,10 +292,10 @@ TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
     folder.write("a.mtl", "newmtl a\nmap_Kd t.png  # note\nnewmtl b\nmap_Kd t #2.png\n");
     Diagnostics found;
     const SceneDescription scene =
-        scene_of("mtllib a.mtl\n" + kSquare +
-                     "vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1#c\nusemtl b\nf 1/1 2/1 3/1 # c\n"
-                     "f 1 2 3# c\n",
-                 found, folder.path());
+        obj_scene("mtllib a.mtl\n" + kObjSquare +
+                      "vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1#c\nusemtl b\nf 1/1 2/1 3/1 # c\n"
+                      "f 1 2 3# c\n",
+                  found, folder.path());
     EXPECT_EQ(found.all().size(), 1u) << text_of(found);
     EXPECT_TRUE(mentions(found, "the mesh 'b' has faces without texture coordinates"));
     EXPECT_EQ(scene.textures.size(), 2u);
@@ -481,8 +306,8 @@ TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
 
 TEST(ObjScene, MissingMaterialsAndIncludedFilesAreToldOfAtTheirLines) {
     Diagnostics found;
-    (void)scene_of(kSquare + "usemtl a\nf 1 2 3\ncall more.obj\nusemtl b\nf 1 3 4\ncall x.obj\n",
-                   found);
+    (void)obj_scene(
+        kObjSquare + "usemtl a\nf 1 2 3\ncall more.obj\nusemtl b\nf 1 3 4\ncall x.obj\n", found);
     EXPECT_EQ(text_of(found),
               "nowhere/a.obj:7:1: warning: the file of 'call more.obj' is not read, nor are those "
               "of other 'call' statements\n"
@@ -495,8 +320,9 @@ TEST(ObjScene, FilesOutsideOfTheScenesFolderAreNotRead) {
     folder.write("secret.mtl", "newmtl a\nKd 1 0 0\n");
     folder.write("scene/here.txt", "");
     Diagnostics found;
-    const SceneDescription scene = scene_of(
-        "mtllib ../secret.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", found, folder.path() / "scene");
+    const SceneDescription scene =
+        obj_scene("mtllib ../secret.mtl\n" + kObjSquare + "usemtl a\nf 1 2 3\n", found,
+                  folder.path() / "scene");
     EXPECT_TRUE(mentions(found, "outside the scene's folder")) << text_of(found);
     EXPECT_EQ(scene.materials.at(0).material.diffuse.color, (Rgb{.7, .7, .7}));
 }
@@ -507,7 +333,7 @@ TEST(ObjScene, ManyNamesThatAreNotThereTakeNoTime) {
     Diagnostics found;
     const auto start = std::chrono::steady_clock::now();
     const TemporaryFolder folder;
-    (void)scene_of(names + "\n" + kSquare + "f 1 2 3\n", found, folder.path());
+    (void)obj_scene(names + "\n" + kObjSquare + "f 1 2 3\n", found, folder.path());
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_LT(seconds, 10.0);

@@ -1,40 +1,22 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "alhazen/imaging/codecs/image_io.h"
-#include "support/image_texture.h"
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
+#include "unit/formats/uw_yaml/uw_yaml_scene.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::course_scene;
+using testing::expect_point;
 using testing::import_text;
 using testing::mentions;
+using testing::shape_of;
 using testing::text_of;
-
-const std::string kMaterials = R"(
-Materials:
-    Red One:
-        Shader: Blinn-Phong Shader
-        Uniforms:
-            Diffuse: {Color: {R: 0.75, G: 0, B: 5e-05, A: 1}, Color Map: "", Use Texture: false}
-            Specular: {Color: {R: 0.5, G: 0.25, B: 0.125, A: 1}, Color Map: "", Use Texture: false}
-            Emissive: {Color: {R: 0.01, G: 0, B: 0, A: 1}, Color Map: "", Use Texture: false}
-            Transmittence: {Color: {R: 0, G: 0.9, B: 0, A: 1}, Color Map: "", Use Texture: false}
-            Shininess: 25.6
-            IndexOfRefraction: 1.5
-)";
-
-/// A scene whose root has `components` (lines indented by 8) and `children` (by 4).
-std::string scene_of(const std::string& components, const std::string& children = "    []\n") {
-    return "Name: test" + kMaterials +
-           "Root:\n    Name: Root\n    Enabled: true\n    Components:\n" + components +
-           "    Children:\n" + children;
-}
 
 const std::string kCamera = R"(        Camera:
             FOV: 60
@@ -43,17 +25,6 @@ const std::string kCamera = R"(        Camera:
             Perspective Camera?: true
             Trace: {Maximum Recursion Depth: 3, Shadows: 2, Monte Carlo: 0, Samples Per Pixel: 0}
 )";
-
-template <class S>
-const S& shape_of(const SceneDescription& scene, std::size_t part) {
-    return std::get<S>(std::get<AnyShape>(scene.objects.at(0).parts.at(part).what));
-}
-
-void expect_point(const Vec3& p, const Vec3& expected) {
-    EXPECT_NEAR(length(p - expected), 0.0, 1e-12)
-        << p.x << " " << p.y << " " << p.z << " instead of " << expected.x << " " << expected.y
-        << " " << expected.z;
-}
 
 TEST(UwYaml, BracketsInTextDoNotNest) {
     std::string lines;
@@ -64,19 +35,20 @@ TEST(UwYaml, BracketsInTextDoNotNest) {
                  "        Long " + std::to_string(i) + ": \"[\n          [ {\"\n";
     }
     Diagnostics found;
-    (void)import_text(scene_of(kCamera + lines), "yaml", found);
+    (void)import_text(course_scene(kCamera + lines), "yaml", found);
     EXPECT_FALSE(mentions(found, "nested")) << text_of(found);
     std::string deep;
     for (int i = 0; i < 300; ++i) deep += "[\"]\", ";
     Diagnostics nested;
-    EXPECT_THROW((void)import_text(scene_of(kCamera + "        X: " + deep + "\n"), "yaml", nested),
-                 Error);
+    EXPECT_THROW(
+        (void)import_text(course_scene(kCamera + "        X: " + deep + "\n"), "yaml", nested),
+        Error);
 }
 
 TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
     Diagnostics found;
-    const SceneDescription scene =
-        import_text(scene_of("        Sphere: {Material: Red One, Quality: 4}\n"), "a.yaml", found);
+    const SceneDescription scene = import_text(
+        course_scene("        Sphere: {Material: Red One, Quality: 4}\n"), "a.yaml", found);
     EXPECT_EQ(text_of(found), "");
     ASSERT_EQ(scene.materials.size(), 1u);
     const Material& m = scene.materials[0].material;
@@ -97,7 +69,7 @@ TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
 TEST(UwYaml, TransformsTurnAboutZThenYThenXAndChildrenMultiplyOnTheRight) {
     Diagnostics found;
     const SceneDescription scene = import_text(
-        scene_of(
+        course_scene(
             "        Transform: {Translation: {X: 1, Y: 2, Z: 3}, Rotation: {X: 90, Y: 0, Z: 90}, "
             "Scale: {X: 2, Y: 1, Z: 1}}\n",
             "    -   Name: a child\n        Enabled: true\n        Components:\n"
@@ -117,10 +89,10 @@ TEST(UwYaml, TransformsTurnAboutZThenYThenXAndChildrenMultiplyOnTheRight) {
 TEST(UwYaml, EveryShapeHasTheCoursesSizeAndPlace) {
     Diagnostics found;
     const SceneDescription scene = import_text(
-        scene_of("        Sphere: {Material: Red One}\n        Cylinder: {Material: Red One}\n"
-                 "        Cone: {Material: Red One}\n        Plane: {Material: Red One}\n"
-                 "        Ring: {Material: Red One, Width: 0.2}\n"
-                 "        TriangleMesh: {Material: Red One, Mesh: Cube}\n"),
+        course_scene("        Sphere: {Material: Red One}\n        Cylinder: {Material: Red One}\n"
+                     "        Cone: {Material: Red One}\n        Plane: {Material: Red One}\n"
+                     "        Ring: {Material: Red One, Width: 0.2}\n"
+                     "        TriangleMesh: {Material: Red One, Mesh: Cube}\n"),
         "a.yaml", found);
     EXPECT_EQ(found.error_count(), 0u) << text_of(found);
     ASSERT_EQ(scene.objects[0].parts.size(), 7u);
@@ -139,7 +111,7 @@ TEST(UwYaml, EveryShapeHasTheCoursesSizeAndPlace) {
 TEST(UwYaml, LightsAndCameraFollowTheirNodes) {
     Diagnostics found;
     const SceneDescription scene = import_text(
-        scene_of(
+        course_scene(
             "        Transform: {Translation: {X: 0, Y: 0, Z: 5}, Rotation: {X: 90, Y: 0, Z: "
             "0}}\n" +
             kCamera +
@@ -174,7 +146,7 @@ TEST(UwYaml, TheCameraDecidesWhetherMirrorsAndGlassAreTraced) {
                        "Reflections: " + flag + ", Refractions: " + flag);
         Diagnostics found;
         const SceneDescription scene = import_text(
-            scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
+            course_scene("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
         EXPECT_EQ(scene.conventions.shading.trace_reflections, on);
         EXPECT_EQ(scene.conventions.shading.trace_refractions, on);
         // Transmitting surfaces still tint shadows.
@@ -202,7 +174,7 @@ TEST(UwYaml, ShadowsAreNoneOpaqueOrColouredAndOlderFilesSwitchThem) {
         camera.replace(camera.find("Shadows: 2"), 10, text);
         Diagnostics found;
         const SceneDescription scene = import_text(
-            scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
+            course_scene("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
         EXPECT_EQ(scene.conventions.shading.shadow_tint, tint) << text;
         EXPECT_EQ(text_of(found), "") << text;
     }
@@ -212,9 +184,9 @@ TEST(UwYaml, TruthValuesHaveTheWordsAndCapitalsOfYaml) {
     const auto nodes = [](const std::string& value) {
         Diagnostics found;
         const SceneDescription scene =
-            import_text(scene_of(kCamera, "    -   Enabled: " + value +
-                                              "\n        Components:\n"
-                                              "            Sphere: {Material: Red One}\n"),
+            import_text(course_scene(kCamera, "    -   Enabled: " + value +
+                                                  "\n        Components:\n"
+                                                  "            Sphere: {Material: Red One}\n"),
                         "a.yaml", found);
         EXPECT_EQ(text_of(found), "") << value;
         return scene.objects.at(0).parts.size();
@@ -226,12 +198,12 @@ TEST(UwYaml, TruthValuesHaveTheWordsAndCapitalsOfYaml) {
         EXPECT_EQ(nodes(off), 0U) << off;
     }
     Diagnostics found;
-    import_text(scene_of(kCamera, "    -   Enabled: tRUE\n"), "a.yaml", found);
+    import_text(course_scene(kCamera, "    -   Enabled: tRUE\n"), "a.yaml", found);
     EXPECT_TRUE(mentions(found, "'Enabled' must be true or false")) << text_of(found);
 }
 
 TEST(UwYaml, AnotherDocumentInTheFileIsAWarning) {
-    const std::string scene = scene_of("        Sphere: {Material: Red One}\n" + kCamera);
+    const std::string scene = course_scene("        Sphere: {Material: Red One}\n" + kCamera);
     Diagnostics found;
     EXPECT_EQ(import_text("---\n" + scene + "---\nRoot: {}\n", "a.yaml", found)
                   .objects.at(0)
@@ -247,10 +219,10 @@ TEST(UwYaml, AnotherDocumentInTheFileIsAWarning) {
 TEST(UwYaml, WhatIsNotEnabledIsNotThere) {
     Diagnostics found;
     const SceneDescription scene = import_text(
-        scene_of("        Sphere: {Material: Red One}\n",
-                 "    -   Name: off\n        Enabled: false\n        Components:\n"
-                 "            Sphere: {Material: Nothing}\n        Children:\n"
-                 "        -   Components:\n                Sphere: {Material: Nothing}\n"),
+        course_scene("        Sphere: {Material: Red One}\n",
+                     "    -   Name: off\n        Enabled: false\n        Components:\n"
+                     "            Sphere: {Material: Nothing}\n        Children:\n"
+                     "        -   Components:\n                Sphere: {Material: Nothing}\n"),
         "a.yaml", found);
     EXPECT_EQ(text_of(found), "");
     EXPECT_EQ(scene.objects[0].parts.size(), 1u);
@@ -259,7 +231,7 @@ TEST(UwYaml, WhatIsNotEnabledIsNotThere) {
 TEST(UwYaml, WhatCannotBeDrawnIsAWarningThatNamesIt) {
     Diagnostics found;
     const SceneDescription scene = import_text(
-        scene_of(
+        course_scene(
             "        SurfaceOfRevolution: {Material: Red One}\n        RobotArmProp: {Angle: 0}\n"
             "        ParticleSystem: {Material: Red One}\n        AreaLight: {Color: {R: 1}}\n"
             "        EnvironmentMap: {Far Plane: 100}\n",
@@ -283,7 +255,7 @@ TEST(UwYaml, UnknownAndRepeatedKeysAreWarningsAndMergeKeysAreErrors) {
         return text_of(found);
     };
     const auto of_components = [&](const std::string& components) {
-        return finding(scene_of(components));
+        return finding(course_scene(components));
     };
     // The first component is in line 16.
     EXPECT_EQ(of_components("        Sphere: {Material: Red One, Radius: 2}\n"),
@@ -303,25 +275,26 @@ TEST(UwYaml, UnknownAndRepeatedKeysAreWarningsAndMergeKeysAreErrors) {
               "a.yaml:16:37: error: merge keys (<<) are not supported; repeat what they merge\n");
     // Once for each name, whatever its number of places.
     const std::string sphere = "        Sphere: {Material: Red One}\n";
-    EXPECT_EQ(finding(scene_of(sphere, "    -   {Nam: a}\n    -   {Nam: b}\n") + "Lights: {}\n"),
-              "a.yaml:20:1: warning: the key 'Lights' of 'the scene' is not known; ignored\n"
-              "a.yaml:18:10: warning: the key 'Nam' of 'a node' is not known; ignored\n");
-    std::string text = scene_of(sphere);
+    EXPECT_EQ(
+        finding(course_scene(sphere, "    -   {Nam: a}\n    -   {Nam: b}\n") + "Lights: {}\n"),
+        "a.yaml:20:1: warning: the key 'Lights' of 'the scene' is not known; ignored\n"
+        "a.yaml:18:10: warning: the key 'Nam' of 'a node' is not known; ignored\n");
+    std::string text = course_scene(sphere);
     text.replace(text.find("Shininess"), 9, "Shinines");
     EXPECT_EQ(finding(text),
               "a.yaml:10:13: warning: the key 'Shinines' of 'Uniforms' is not known; ignored\n");
-    text = scene_of(sphere);
+    text = course_scene(sphere);
     text.replace(text.find("Color: {R: 0.75"), 5, "Colour");
     EXPECT_EQ(finding(text),
               "a.yaml:6:23: warning: the key 'Colour' of 'Diffuse' is not known; ignored\n");
-    EXPECT_NE(finding(scene_of(sphere, "        5\n")).find("'Children' must be a list"),
+    EXPECT_NE(finding(course_scene(sphere, "        5\n")).find("'Children' must be a list"),
               std::string::npos);
     EXPECT_NE(of_components("            [1]\n").find("'Components' must be a map"),
               std::string::npos);
 }
 
 TEST(UwYaml, TransmittanceMayBeSpeltBothWays) {
-    std::string text = scene_of("        Sphere: {Material: Red One}\n");
+    std::string text = course_scene("        Sphere: {Material: Red One}\n");
     text.replace(text.find("Transmittence"), 13, "Transmittance");
     Diagnostics found;
     const SceneDescription scene = import_text(text, "a.yaml", found);
@@ -332,7 +305,7 @@ TEST(UwYaml, TransmittanceMayBeSpeltBothWays) {
 TEST(UwYaml, FindingsNameLineAndColumn) {
     const auto expect = [](const std::string& components, const char* part) {
         Diagnostics found;
-        import_text(scene_of(components), "a.yaml", found);
+        import_text(course_scene(components), "a.yaml", found);
         EXPECT_GT(found.error_count(), 0u);
         EXPECT_TRUE(mentions(found, part)) << components << "\n" << text_of(found);
     };
@@ -397,8 +370,9 @@ TEST(UwYaml, FilesAreLookedForFromTheFolderThatHoldsAssets) {
     folder.write("assets/meshes/one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const auto import_mesh = [&](const std::string& path, Diagnostics& found) {
-        const std::string text = "Meshes: {one: {Path: " + path + "}}\n" +
-                                 scene_of("        TriangleMesh: {Material: Red One, Mesh: one}\n");
+        const std::string text =
+            "Meshes: {one: {Path: " + path + "}}\n" +
+            course_scene("        TriangleMesh: {Material: Red One, Mesh: one}\n");
         const auto file = folder.write("assets/scenes/deep/a.yaml", text);
         return import_text(text, file, found).meshes.size();
     };
@@ -414,119 +388,8 @@ TEST(UwYaml, FilesAreLookedForFromTheFolderThatHoldsAssets) {
     }
 }
 
-TEST(UwYaml, ATexelLiesAtItsCornerInRowsFromTheTopAndTheCubeHasTheCoursesFaces) {
-    const testing::TemporaryFolder folder;
-    Image picture(2, 2, 3);
-    const std::array<float, 12> samples{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
-    picture.samples.assign(samples.begin(), samples.end());
-    std::filesystem::create_directories(folder.path() / "assets");
-    write_image(folder.path() / "assets/four.png", picture);
-    std::string text = scene_of("        TriangleMesh: {Material: Red One, Mesh: Cube}\n");
-    const std::string plain = "B: 5e-05, A: 1}, Color Map: \"\", Use Texture: false";
-    text.replace(text.find(plain), plain.size(),
-                 "B: 5e-05, A: 1}, Color Map: four, Use Texture: true");
-    text = "Textures: {four: {Path: assets/four.png, Bilinear: true}}\n" + text;
-    Diagnostics found;
-    const SceneDescription scene = import_text(text, folder.write("assets/a.yaml", text), found);
-    ASSERT_EQ(text_of(found), "");
-
-    ASSERT_EQ(scene.textures.size(), 1u);
-    const ImageTexture& texture = testing::image_texture(scene.textures[0]);
-    const auto at = [&](double u, double v) {
-        const Rgba c = evaluate(texture, texture.uv_transform.apply({u, v}));
-        return Vec3{c.r, c.g, c.b};
-    };
-    expect_point(at(0, 0), {0, 0, 0});
-    expect_point(at(0.5, 0), {1, 0, 0});
-    expect_point(at(0, 0.5), {0, 1, 0});
-    expect_point(at(1.5, -0.5), {1, 1, 1});
-    expect_point(at(0.25, 0), {0.5, 0, 0});
-    expect_point(at(0.75, 0), {0.5, 0, 0});  // repeated
-
-    ASSERT_EQ(scene.meshes.size(), 1u);
-    const TriangleMesh& cube = *scene.meshes[0].mesh;
-    ASSERT_EQ(cube.triangles.size(), 12u);
-    EXPECT_TRUE(cube.closed());
-    for (const auto& [a, b, c] : cube.triangles) {
-        const Vec3 normal = cross(cube.positions[b] - cube.positions[a],  // outward
-                                  cube.positions[c] - cube.positions[a]);
-        for (const std::uint32_t i : {a, b, c}) {
-            const Vec3 p = cube.positions[i];
-            EXPECT_NEAR(dot(normal, p), 0.5, 1e-15);
-            Vec2 uv{0.5 + p.x, 0.5 + p.y};  // front
-            if (normal.y > 0.5) uv.y = 0.5 - p.z;
-            if (normal.y < -0.5) uv.y = 0.5 + p.z;
-            if (normal.x > 0.5) uv.x = 0.5 - p.z;
-            if (normal.x < -0.5) uv.x = 0.5 + p.z;
-            if (normal.z < -0.5) uv.x = 0.5 - p.x;
-            EXPECT_EQ(cube.uvs[i], uv);
-        }
-    }
-}
-
-TEST(UwYaml, ASphereHasTheCoordinatesOfTheCoursesExportedSpheres) {
-    Diagnostics found;
-    const SceneDescription scene =
-        import_text(scene_of("        Sphere: {Material: Red One}\n"), "a.yaml", found);
-    ASSERT_EQ(scene.objects[0].parts.size(), 1u) << text_of(found);
-    const Affine& world_from_sphere = scene.objects[0].parts[0].object_from_part;
-    const Affine sphere_from_world = inverse(world_from_sphere);
-    const Sphere& sphere = shape_of<Sphere>(scene, 0);
-    const auto uv_at = [&](const Vec3& p) {
-        const Ray ray{sphere_from_world.point(2.0 * p), sphere_from_world.vector(-1.0 * p)};
-        ShapeHit hits[Sphere::kMaxHits];
-        EXPECT_EQ(sphere.intersect(ray, hits), 2);
-        return sphere.surface(ray, hits[0]).uv;
-    };
-    // Vertices 13, 17 and 58 of poly-sphere.ply.
-    const Vec2 a = uv_at({-0.0908178, 0.475528, -0.125});
-    EXPECT_NEAR(a.x, 0.1, 1e-5);
-    EXPECT_NEAR(a.y, 0.1, 1e-5);
-    const Vec2 b = uv_at({0, 0.475528, 0.154508});
-    EXPECT_NEAR(b.x, 0.5, 1e-5);
-    EXPECT_NEAR(b.y, 0.1, 1e-5);
-    const Vec2 c = uv_at({-0.279508, 0.154508, -0.38471});
-    EXPECT_NEAR(c.x, 0.1, 1e-5);
-    EXPECT_NEAR(c.y, 0.4, 1e-5);
-}
-
-TEST(UwYaml, AMeshWithoutNormalsIsSmoothByAreaAndPosition) {
-    const testing::TemporaryFolder folder;
-    // A roof: the ridge is shared by a large and a small slope. Once with shared vertices, once
-    // with vertices repeated for every triangle.
-    const std::string corners = "v 0 0 0\nv 0 0 1\nv 2 -2 0\nv -1 -1 0\n";
-    folder.write("assets/shared.obj", corners + "f 1 2 3\nf 1 4 2\n");
-    folder.write("assets/repeated.ply",
-                 "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
-                 "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
-                 "end_header\n0 0 0\n0 0 1\n2 -2 0\n0 0 0\n-1 -1 0\n-0 0 1\n3 0 1 2\n3 3 4 5\n");
-    folder.write("assets/own.obj", corners + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1//1 4//1 2//1\n");
-    const auto normals_of = [&](const std::string& file) {
-        const std::string text = "Meshes: {one: {Path: assets/" + file + "}}\n" +
-                                 scene_of("        TriangleMesh: {Material: Red One, Mesh: one}\n");
-        Diagnostics found;
-        const SceneDescription scene =
-            import_text(text, folder.write("assets/a.yaml", text), found);
-        EXPECT_EQ(text_of(found), "");
-        return scene.meshes.at(0).mesh->normals;
-    };
-    const Vec3 ridge = normalize(Vec3{2, 2, 0} + Vec3{-1, 1, 0});
-    const std::vector<Vec3> shared = normals_of("shared.obj");
-    ASSERT_EQ(shared.size(), 4u);
-    expect_point(shared[0], ridge);
-    expect_point(shared[1], ridge);
-    expect_point(shared[2], normalize(Vec3{1, 1, 0}));
-    expect_point(shared[3], normalize(Vec3{-1, 1, 0}));
-    const std::vector<Vec3> repeated = normals_of("repeated.ply");
-    ASSERT_EQ(repeated.size(), 6u);
-    for (const int i : {0, 1, 3, 5}) expect_point(repeated[std::size_t(i)], ridge);
-    expect_point(repeated[2], shared[2]);
-    expect_point(repeated[4], shared[3]);
-    for (const Vec3& normal : normals_of("own.obj")) expect_point(normal, {0, 0, 1});
-}
-
 TEST(UwYaml, RandomDamageNeverDoesMoreThanFindings) {
-    const std::string good = scene_of(
+    const std::string good = course_scene(
         "        Sphere: {Material: Red One}\n" + kCamera,
         "    -   Name: child\n        Components:\n            PointLight: {Color: {R: 1}}\n");
     std::mt19937 random(13);

@@ -14,9 +14,6 @@ namespace {
 
 using namespace alhazen::testing;
 
-/// As in TheThreeStrategiesAgreeOnThirteenScenes.
-constexpr double kMost = 5.7;
-
 /// A matt table with a ball, seen from above, under a uniform sky.
 SceneMaker table_under_the_sky() {
     SceneMaker maker;
@@ -73,7 +70,7 @@ TEST(EndlessPlanes, StrategiesAgreeBesideAndBelowThem) {
         std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
                                            "vcm:photons=100,radius=0.04,pilot=off,depth=5"};
         if (c.all) renderers.push_back("light_tracing:depth=5");
-        expect_same_light(scene, c.name, renderers, 24, kMost);
+        expect_same_light(scene, c.name, renderers, 24);
     }
 }
 
@@ -127,7 +124,7 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
                                            "vcm:photons=100,radius=0.04,pilot=off,depth=5"};
         // Fog outside the disc of the light paths stays dark to light tracing.
         if (!scene.has_scattering) renderers.push_back("light_tracing:depth=5");
-        expect_same_light(scene, c.name, renderers, 24, kMost);
+        expect_same_light(scene, c.name, renderers, 24);
     }
 }
 
@@ -161,7 +158,7 @@ TEST(EndlessPlanes, TheSphereOfAllThatIsBoundedHoldsWhatMovesAndWhatRests) {
 TEST(EndlessPlanes, LightPathsReachWhatMovesAboveThem) {
     expect_same_light(moving_ball_above_a_plane(true).compile(), "moving ball",
                       {"path_tracing:depth=5", "bidirectional:depth=5", "light_tracing:depth=5"},
-                      24, kMost);
+                      24);
 }
 
 }  // namespace

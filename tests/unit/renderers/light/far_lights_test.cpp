@@ -18,6 +18,7 @@ using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
 using testing::rectangle;
+using testing::rectangle_mesh;
 using testing::SceneMaker;
 using testing::shining;
 
@@ -32,14 +33,6 @@ TriangleMesh tetrahedron(const Vec3& center) {
     return mesh;
 }
 
-/// A square of two triangles: plain vertices of path_tracing.
-TriangleMesh square(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    TriangleMesh mesh;
-    mesh.positions = {corner, corner + u, corner + u + v, corner + v};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
 using Fill = std::function<void(SceneMaker&, const Vec3& at)>;
 
 /// A floor and a wall around `at`, with what `fill` adds.
@@ -48,7 +41,7 @@ Scene corner_at(const Vec3& at, const Fill& fill) {
     maker.description().cameras[0].camera =
         look_along(at + Vec3{0, -4, 1.5}, {0, 4, -1.25}, {0, 0, 1}, 0.4, 1.0);
     const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
-    maker.add(maker.mesh(square(at + Vec3{-2.5, -2.5, 0}, {5, 0, 0}, {0, 5, 0})), white);
+    maker.add(maker.mesh(rectangle_mesh(at + Vec3{-2.5, -2.5, 0}, {5, 0, 0}, {0, 5, 0})), white);
     maker.add(rectangle(at + Vec3{-2.5, 1.5, 0}, {5, 0, 0}, {0, 0, 4}), white);
     fill(maker, at);
     return maker.compile("wide_bvh");

@@ -12,6 +12,7 @@
 #include "support/light_pictures.h"
 #include "support/random.h"
 #include "unit/renderers/light/both_directions.h"
+#include "unit/renderers/light/scatter_at.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using testing::expect_both_directions_agree;
 using testing::expect_close;
 using testing::SceneMaker;
+using testing::set_scatter_point;
 
 enum class Frame { Tangents, MirroredTangents, Coordinates, MirroredCoordinates };
 
@@ -60,19 +62,9 @@ Scene scene_of(Frame frame, const Material& material) {
     return maker.compile();
 }
 
-void set_point(const Scene& scene, const Vec3& view, ScatterPoint& scatter,
-               BsdfCache* known = nullptr) {
-    const Ray ray{Vec3{0.1, 0.2, 0} + 5 * view, -view};
-    Hit hit;
-    ASSERT_TRUE(scene.aggregate->closest(ray, hit, {nullptr}));
-    ShadingPoint point;
-    set_shading_point(scene, ray, hit, {.meets_backs = true}, {}, point);
-    scatter.set(scene, point, {}, kColorChannels, true, known);
-}
-
 double value(const Scene& scene, const Vec3& view, const Vec3& light, BsdfCache* known = nullptr) {
     ScatterPoint scatter;
-    set_point(scene, view, scatter, known);
+    set_scatter_point(scene, view, scatter, known);
     return scatter.value(light, Transport::Radiance).a;
 }
 
@@ -121,8 +113,8 @@ TEST(Grooves, OfThinSheetsScatterAlikeInBothDirections) {
         for (int i = 0; i < 300; ++i) {
             const Vec3 to_eye = random.unit_vector(), to_light = random.unit_vector();
             ScatterPoint eye, light;
-            set_point(scene, to_eye, eye);
-            set_point(scene, to_light, light);
+            set_scatter_point(scene, to_eye, eye);
+            set_scatter_point(scene, to_light, light);
             const std::string what = std::to_string(i);
             const double seen = expect_both_directions_agree(eye, to_eye, light, to_light, what);
             through += seen > 1e-3 && to_eye.z * to_light.z < 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/light_pictures.h"
+#include "support/show_last_to.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -23,16 +24,13 @@ using testing::picture_of;
 using testing::rectangle;
 using testing::SceneMaker;
 using testing::shining;
+using testing::show_last_to;
 
 constexpr RayMask kShadow = mask_of(RayKind::Shadow);
 constexpr RayMask kNoShadow = kRaysOfAllKinds & ~kShadow;
 constexpr Rgb kFloor{0.5, 0.5, 0.5};
 /// Half the side of the picture.
 constexpr double kSeen = 0.5;
-
-void show_last_to(SceneMaker& maker, RayMask mask) {
-    maker.description().objects[0].parts.back().visible_to = mask;
-}
 
 /// A floor of side 2, seen from above.
 SceneMaker small_floor(const Rgb& color = kFloor) {
@@ -245,14 +243,9 @@ TEST(HiddenLights, MirrorsShowLightsThatShadowRaysDoNotFind) {
 const std::string kVcm = "vcm:photons=500,radius=0.05,pilot=off",
                   kSppm = "sppm:photons=2000,radius=0.05";
 
-// Three pairs of 4 blocks in each scene: a t of 22 degrees of freedom beyond 5.7 is seen in one of
-// 8000 scenes.
-constexpr double kMost = 5.7;
-
 void expect_agreement(const Scene& scene, const std::string& name, int samples, double bias,
                       const std::vector<std::string>& photons) {
-    expect_same_light(scene, name, {"path_tracing", "light_tracing", "bidirectional"}, samples,
-                      kMost);
+    expect_same_light(scene, name, {"path_tracing", "light_tracing", "bidirectional"}, samples);
     const double light = mean_of(picture_of(scene, "path_tracing", 8, 512)).g;
     ASSERT_GT(light, 0.01);
     for (const std::string& renderer : photons) {

@@ -9,6 +9,7 @@
 #include "alhazen/renderers/manifold/chain_solver.h"
 #include "alhazen/renderers/manifold/normal_change.h"
 #include "alhazen/renderers/manifold/sphere_chains.h"
+#include "support/fresnel.h"
 #include "support/light_pictures.h"
 #include "support/lit_rooms.h"
 #include "support/random.h"
@@ -20,6 +21,7 @@ namespace {
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
+using testing::fresnel;
 using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
@@ -43,14 +45,6 @@ Material mirror(const Rgb& color = {1, 1, 1}) {
 PointLight lamp_at(const Vec3& position, double color = 1.0) {
     return PointLight{
         .position = position, .color = {color, color, color}, .attenuation = {0, 0, 1}};
-}
-
-/// Share of unpolarised light that a boundary reflects.
-double fresnel(double cosine, double index) {
-    const double behind = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
-    const double s = (cosine - index * behind) / (cosine + index * behind);
-    const double p = (index * cosine - behind) / (index * cosine + behind);
-    return 0.5 * (s * s + p * p);
 }
 
 /// A point of the floor from which chains start.

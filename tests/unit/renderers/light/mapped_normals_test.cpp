@@ -12,6 +12,7 @@
 #include "support/light_pictures.h"
 #include "support/random.h"
 #include "unit/renderers/light/both_directions.h"
+#include "unit/renderers/light/scatter_at.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using testing::expect_both_directions_agree;
 using testing::matt;
 using testing::SceneMaker;
+using testing::set_scatter_point;
 
 /// A square of side 2 in the plane z = 0 whose map tilts the normal to +x.
 SceneMaker tilted_square(Material material, double tilt) {
@@ -54,24 +56,6 @@ Material thin_rough_glass() {
     return m;
 }
 
-/// Scatters at one point of a scene, as paths from any direction find it.
-class Point {
-  public:
-    explicit Point(const Scene& scene) : scene_(scene) {}
-
-    void set(const Vec3& view, ScatterPoint& scatter) const {
-        const Ray ray{Vec3{0.1, 0.2, 0} + 5 * view, -view};
-        Hit hit;
-        ASSERT_TRUE(scene_.aggregate->closest(ray, hit, {nullptr}));
-        ShadingPoint point;
-        set_shading_point(scene_, ray, hit, {.meets_backs = true}, {}, point);
-        scatter.set(scene_, point, {}, kColorChannels, true);
-    }
-
-  private:
-    const Scene& scene_;
-};
-
 /// Light is scattered alike in whichever direction a path goes, and each density is known from both
 /// sides.
 TEST(MappedNormals, PathsOfBothDirectionsAgree) {
@@ -80,15 +64,14 @@ TEST(MappedNormals, PathsOfBothDirectionsAgree) {
         for (const double tilt : {0.3, 1.0}) {
             SceneMaker maker = tilted_square(materials[m], tilt);
             const Scene scene = maker.compile();
-            const Point point(scene);
             const Vec3 map{std::sin(tilt), 0, std::cos(tilt)};
             testing::Random random(7);
             int lit = 0, turned = 0;
             for (int i = 0; i < 3000; ++i) {
                 const Vec3 to_eye = random.unit_vector(), to_light = random.unit_vector();
                 ScatterPoint eye, light;
-                point.set(to_eye, eye);
-                point.set(to_light, light);
+                set_scatter_point(scene, to_eye, eye);
+                set_scatter_point(scene, to_light, light);
                 const std::string what = std::to_string(m) + ", " + std::to_string(i);
                 const double seen =
                     expect_both_directions_agree(eye, to_eye, light, to_light, what);

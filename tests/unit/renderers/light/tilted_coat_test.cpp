@@ -11,12 +11,14 @@
 #include "support/light_pictures.h"
 #include "support/random.h"
 #include "unit/renderers/light/both_directions.h"
+#include "unit/renderers/light/scatter_at.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_both_directions_agree;
 using testing::SceneMaker;
+using testing::set_scatter_point;
 
 /// Tilts of the normals towards +x, 0: no map.
 struct Maps {
@@ -68,15 +70,6 @@ Material coated(Base base, double roughness, double strength = 0.8) {
     return m;
 }
 
-void set_point(const Scene& scene, const Vec3& view, ScatterPoint& scatter) {
-    const Ray ray{Vec3{0.1, 0.2, 0} + 5 * view, -view};
-    Hit hit;
-    ASSERT_TRUE(scene.aggregate->closest(ray, hit, {nullptr}));
-    ShadingPoint point;
-    set_shading_point(scene, ray, hit, {.meets_backs = true}, {}, point);
-    scatter.set(scene, point, {}, kColorChannels, true);
-}
-
 const Maps kMaps[] = {{0.4, 0}, {0, 0.4}, {0.9, -0.5}};
 
 TEST(TiltedCoat, IsNotBentByTheMapOfTheLayersBelow) {
@@ -92,7 +85,7 @@ TEST(TiltedCoat, IsNotBentByTheMapOfTheLayersBelow) {
         int n = 0;
         for (const Scene* scene : {&flat, &bent, &shared, &own}) {
             ScatterPoint scatter;
-            set_point(*scene, view, scatter);
+            set_scatter_point(*scene, view, scatter);
             value[n++] = scatter.value(light, Transport::Radiance).a;
         }
         const std::string what = std::to_string(i);
@@ -114,8 +107,8 @@ TEST(TiltedCoat, PathsOfBothDirectionsAgree) {
             for (int i = 0; i < 1000; ++i) {
                 const Vec3 to_eye = random.unit_vector(), to_light = random.unit_vector();
                 ScatterPoint eye, light;
-                set_point(scene, to_eye, eye);
-                set_point(scene, to_light, light);
+                set_scatter_point(scene, to_eye, eye);
+                set_scatter_point(scene, to_light, light);
                 const std::string what = std::to_string(static_cast<int>(base)) + ", map " +
                                          std::to_string(maps.base) + ", " + std::to_string(i);
                 const double seen =
@@ -136,7 +129,7 @@ TEST(TiltedCoat, SamplesFollowTheDensityAndKeepTheEnergy) {
                 const Scene scene = coated_square(coated(base, roughness), maps).compile();
                 for (const Vec3& direction : {Vec3{0.3, 0.2, 0.9}, Vec3{-0.8, 0.1, -0.4}}) {
                     ScatterPoint scatter;
-                    set_point(scene, normalize(direction), scatter);
+                    set_scatter_point(scene, normalize(direction), scatter);
                     const std::string what = std::to_string(static_cast<int>(base)) + ", map " +
                                              std::to_string(maps.base) + ", roughness " +
                                              std::to_string(roughness);

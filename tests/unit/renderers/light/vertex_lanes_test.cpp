@@ -30,13 +30,6 @@ namespace {
 
 using namespace alhazen::testing;
 
-TriangleMesh quad(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    TriangleMesh mesh;
-    mesh.positions = {corner, corner + u, corner + u + v, corner + v};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
 /// A sphere-like mesh, with vertex normals and texture coordinates on request.
 TriangleMesh round_mesh(bool smooth, bool mapped) {
     const SphereMesh sphere(2);
@@ -74,21 +67,21 @@ Scene room(Surroundings surroundings) {
     const auto add = [&](TriangleMesh mesh, const Material& m, const Affine& placement = {}) {
         maker.add(maker.mesh(std::move(mesh)), maker.material(m), placement);
     };
-    add(quad({-4, -4, -2}, {8, 0, 0}, {0, 8, 0}), matt({0.7, 0.6, 0.5}));
-    add(quad({-4, -4, -2}, {0, 8, 0}, {0, 0, 8}), matt({0.6, 0.1, 0.1}));
-    add(quad({4, -4, -2}, {0, 0, 8}, {0, 8, 0}), metal(0.35));
+    add(rectangle_mesh({-4, -4, -2}, {8, 0, 0}, {0, 8, 0}), matt({0.7, 0.6, 0.5}));
+    add(rectangle_mesh({-4, -4, -2}, {0, 8, 0}, {0, 0, 8}), matt({0.6, 0.1, 0.1}));
+    add(rectangle_mesh({4, -4, -2}, {0, 0, 8}, {0, 8, 0}), metal(0.35));
     Material shiny = matt({0.3, 0.4, 0.3});
     shiny.specular.color = {0.4, 0.4, 0.4};
     shiny.shininess.value = 20;
-    add(quad({-4, 4, -2}, {8, 0, 0}, {0, 0, 8}), shiny);
+    add(rectangle_mesh({-4, 4, -2}, {8, 0, 0}, {0, 0, 8}), shiny);
     Material one_sided = matt({0.2, 0.7, 0.3});
     one_sided.double_sided = false;
-    add(quad({-3, -3, 0}, {1, 0, 0}, {0, 0.5, 1}), one_sided);
+    add(rectangle_mesh({-3, -3, 0}, {1, 0, 0}, {0, 0.5, 1}), one_sided);
     Material mirror;
     mirror.reflective.color = {0.8, 0.9, 0.8};
-    add(quad({2.5, -2, -1.5}, {0.5, 1, 0}, {0, 0, 2}), mirror);
+    add(rectangle_mesh({2.5, -2, -1.5}, {0.5, 1, 0}, {0, 0, 2}), mirror);
     // Seen from behind.
-    add(quad({-1.5, 1.5, 0.5}, {0, 1.5, 0}, {1.5, 0, 0.5}), matt({0.3, 0.3, 0.9}));
+    add(rectangle_mesh({-1.5, 1.5, 0.5}, {0, 1.5, 0}, {1.5, 0, 0.5}), matt({0.3, 0.3, 0.9}));
 
     const auto at = [](const Vec3& place, double size, bool mirrored) {
         Affine a;
@@ -114,8 +107,8 @@ Scene room(Surroundings surroundings) {
     maker.add(twice, MaterialId{0}, at({2, -2, -1.2}, 0.4, true));
     maker.add(ball({-1, -0.5, 0.5}, 0.4), maker.material(matt({0.5, 0.5, 0.5})));
 
-    add(quad({-1, 1, 3}, {0, 1, 0}, {1, 0, 0}), shining({9, 8, 7}));
-    add(quad({2, 1, 2.5}, {0.4, 1, 0}, {1, 0, 0.3}), shining({5, 7, 9}));
+    add(rectangle_mesh({-1, 1, 3}, {0, 1, 0}, {1, 0, 0}), shining({9, 8, 7}));
+    add(rectangle_mesh({2, 1, 2.5}, {0.4, 1, 0}, {1, 0, 0.3}), shining({5, 7, 9}));
     maker.light(PointLight{.position = {-2, -2, 2}, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});
     Scene scene = maker.compile("wide_bvh");
     if (surroundings == Surroundings::Even) scene.background = {0.3, 0.4, 0.6};
@@ -363,7 +356,8 @@ TEST(PlainMeshes, HoldAllTrianglesOfMeshesOfUnevenSizes) {
         const MaterialId material = maker.material(matt({0.5, 0.5, 0.5}));
         const auto add_small = [&](int count) {
             for (int i = 0; i < count; ++i) {
-                maker.add(maker.mesh(quad({0.1 * i, 0, -3}, {0.1, 0, 0}, {0, 1, 0})), material);
+                maker.add(maker.mesh(rectangle_mesh({0.1 * i, 0, -3}, {0.1, 0, 0}, {0, 1, 0})),
+                          material);
             }
         };
         add_small(small);

@@ -55,4 +55,11 @@ inline SceneMaker above_a_light() {
     return maker;
 }
 
+/// Expects the closed form in the picture of one pixel.
+inline void expect_light_passed(SceneMaker& maker, const std::vector<Layer>& layers,
+                                double within = 1e-9) {
+    const double t = passed(layers);
+    expect_near(center(maker.compile()), {t, t, t}, within);
+}
+
 }  // namespace alhazen::testing

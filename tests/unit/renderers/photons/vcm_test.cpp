@@ -15,6 +15,7 @@
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
 #include "support/lit_rooms.h"
+#include "unit/renderers/stop_after.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -34,6 +35,7 @@ using testing::room_of_glass;
 using testing::SceneMaker;
 using testing::shining;
 using testing::smooth_glass;
+using testing::StopAfter;
 
 /// A path of random densities with `m` surfaces.
 WholePath random_path(RandomStream& random, std::size_t m) {
@@ -305,19 +307,6 @@ TEST(Vcm, TellsItsPhotons) {
     for (const float v : aovs.layers().find("photons")->values) sum += v / 64.0;
     EXPECT_GT(sum, 10.0);
 }
-
-/// Requests a stop after some parts.
-class StopAfter final : public ProgressSink {
-  public:
-    explicit StopAfter(std::size_t parts) : parts_(parts) {}
-    void update(std::string_view, std::size_t done, std::size_t) override {
-        if (done == parts_) stop.request();
-    }
-    StopFlag stop;
-
-  private:
-    std::size_t parts_;
-};
 
 TEST(PhotonPasses, AStopBetweenPassesKeepsTheFirstAndCountsTiles) {
     const Scene scene = room([](SceneMaker& m) { add_lamp(m, 0.3, {9, 8, 6}); });

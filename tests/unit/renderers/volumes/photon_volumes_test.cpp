@@ -23,31 +23,14 @@ const std::string kMapped =
 /// Few photons in many passes: most of the error is that of the eye paths.
 const std::string kProgressive = "sppm:photons=1000,radius=0.2,alpha=1";
 
-/// Within 5.4 standard errors of eight pictures (a t of 7 degrees of freedom is beyond in one of
-/// 1000 cases), which are at most 3 % of it, and 0.3 %, which the roundings of photons may take.
-void expect_near(const Scene& scene, const std::string& renderer, const Rgb& expected,
-                 int samples) {
-    constexpr int kRuns = 8;
-    Rgb sum, squares;
-    for (int run = 0; run < kRuns; ++run) {
-        const Rgb m = mean_of(picture_of(scene, renderer, 4, samples, std::uint64_t(1 + run)));
-        sum += m;
-        squares += m * m;
-    }
-    for (int i = 0; i < 3; ++i) {
-        const double mean = sum[i] / kRuns;
-        const double se = std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1));
-        EXPECT_LE(se, 0.03 * expected[i]) << renderer << " " << i;
-        EXPECT_LE(std::abs(mean - expected[i]), 5.4 * se + 0.003 * expected[i])
-            << renderer << " " << i << ": " << mean << " +- " << se << ", expected " << expected[i];
-    }
-}
-
 /// With a map or with passes; every day one of them.
-void expect_near_of_both(const Scene& scene, const std::string& settings, const Rgb& expected,
+void expect_mean_of_both(const Scene& scene, const std::string& settings, const Rgb& expected,
                          bool mapped) {
-    if (thorough() || mapped) expect_near(scene, kMapped + settings, expected, 64);
-    if (thorough() || !mapped) expect_near(scene, kProgressive + settings, expected, 128);
+    // Rounding of photons may take 0.3 %.
+    MeanBounds bounds{.samples = 64, .largest_error = 0.03, .bias = 0.003};
+    if (thorough() || mapped) expect_mean(scene, kMapped + settings, expected, bounds);
+    bounds.samples = 128;
+    if (thorough() || !mapped) expect_mean(scene, kProgressive + settings, expected, bounds);
 }
 
 /// The share of a ball of kRadius around a point that lies in the unit ball; the point is `apart`
@@ -80,7 +63,7 @@ TEST(PhotonVolumes, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
             }
         }
         const Scene scene = maker.compile();
-        expect_near_of_both(scene, "", expected, g == 0.0);
+        expect_mean_of_both(scene, "", expected, g == 0.0);
     }
 }
 
@@ -112,7 +95,7 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
             }
         }
         const Scene scene = maker.compile();
-        expect_near_of_both(scene, ",depth=2", expected, g != 0.0);
+        expect_mean_of_both(scene, ",depth=2", expected, g != 0.0);
     }
 }
 

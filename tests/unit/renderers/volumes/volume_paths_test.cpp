@@ -32,26 +32,6 @@ std::string with(const std::string& name, const std::string& setting) {
     return name + (name.find(':') == std::string::npos ? ":" : ",") + setting;
 }
 
-/// Within 5.4 standard errors of eight pictures (a t of 7 degrees of freedom is beyond in one of
-/// 1000 cases), which are at most `most` of it.
-void expect_near(const Scene& scene, const std::string& renderer, const Rgb& expected, int samples,
-                 double most, int side = 4) {
-    constexpr int kRuns = 8;
-    Rgb sum, squares;
-    for (int run = 0; run < kRuns; ++run) {
-        const Rgb m = mean_of(picture_of(scene, renderer, side, samples, std::uint64_t(1 + run)));
-        sum += m;
-        squares += m * m;
-    }
-    for (int i = 0; i < 3; ++i) {
-        const double mean = sum[i] / kRuns;
-        const double se = std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1));
-        EXPECT_LE(se, most * expected[i]) << renderer << " " << i;
-        EXPECT_LE(std::abs(mean - expected[i]), 5.4 * se + 1e-9 * expected[i])
-            << renderer << " " << i << ": " << mean << " +- " << se << ", expected " << expected[i];
-    }
-}
-
 /// A view of a whole ball of radius 1 and some of its surroundings.
 SceneMaker beside_a_ball() {
     SceneMaker maker;
@@ -69,7 +49,8 @@ TEST(VolumePaths, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
         maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, {0.5, 1, 2}, g)));
         const Scene scene = maker.compile();
         for (const std::string& renderer : joining(turn++)) {
-            expect_near(scene, with(renderer, "depth=200"), {1, 1, 1}, 128, 0.04);
+            expect_mean(scene, with(renderer, "depth=200"), {1, 1, 1},
+                        {.samples = 128, .largest_error = 0.04});
         }
     }
 }
@@ -82,7 +63,7 @@ TEST(VolumePaths, ABallOfMilkIsInvisibleInEvenSurroundings) {
     const Scene scene = maker.compile();
     for (const char* renderer : {"path_tracing:depth=500", "bidirectional:depth=500",
                                  "vcm:photons=50,radius=0.01,pilot=off,depth=500"}) {
-        expect_near(scene, renderer, {1, 1, 1}, 64, 0.02);
+        expect_mean(scene, renderer, {1, 1, 1}, {.samples = 64, .largest_error = 0.02});
     }
 }
 
@@ -120,7 +101,8 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
         }
         const Scene scene = maker.compile();
         for (const std::string& renderer : joining(turn++)) {
-            expect_near(scene, with(renderer, "depth=1"), expected, 200, 0.05);
+            expect_mean(scene, with(renderer, "depth=1"), expected,
+                        {.samples = 200, .largest_error = 0.05});
         }
     }
 }
@@ -145,7 +127,8 @@ TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
         }
         const Scene scene = maker.compile();
         for (const std::string& renderer : joining(turn++)) {
-            expect_near(scene, with(renderer, "depth=1"), expected, 256, 0.05);
+            expect_mean(scene, with(renderer, "depth=1"), expected,
+                        {.samples = 256, .largest_error = 0.05});
         }
     }
 }
@@ -175,7 +158,8 @@ TEST(VolumePaths, ALampInABallOfFogIsFoundFromOutside) {
     // Views that pass close to the light have an infinite variance with paths from the eye alone.
     for (const std::string& renderer : kJoining) {
         if (renderer == "path_tracing") continue;
-        expect_near(scene, with(renderer, "depth=1"), expected, 100, 0.02, 8);
+        expect_mean(scene, with(renderer, "depth=1"), expected,
+                    {.samples = 100, .largest_error = 0.02, .side = 8});
     }
 }
 

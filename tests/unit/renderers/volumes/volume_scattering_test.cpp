@@ -20,24 +20,9 @@ BoxShape wide_layer(double bottom, double top) {
     return {{-1000, -1000, bottom}, {1000, 1000, top}};
 }
 
-/// The mean of a picture, over independent ones, against a closed form: within 4 standard errors,
-/// which are at most `error` of it.
-void expect_mean(const Scene& scene, const std::string& renderer, const Rgb& expected, double error,
-                 int samples = 256) {
-    constexpr int kRuns = 12;
-    Rgb sum, squares;
-    for (int run = 0; run < kRuns; ++run) {
-        const Rgb m = mean_of(picture_of(scene, renderer, 4, samples, std::uint64_t(run + 1)));
-        sum += m;
-        squares += m * m;
-    }
-    for (int i = 0; i < 3; ++i) {
-        const double mean = sum[i] / kRuns;
-        const double se = std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1));
-        EXPECT_LE(se, error * expected[i]) << i;
-        EXPECT_LE(std::abs(mean - expected[i]), 4.0 * se + 1e-12 * expected[i])
-            << i << ": " << mean << ", expected " << expected[i];
-    }
+/// Of twelve pictures, whose error is at most `largest` of it.
+MeanBounds twelve(double largest) {
+    return {.largest_error = largest, .bias = 1e-12, .runs = 12, .most_errors = 4.0};
 }
 
 TEST(HenyeyGreenstein, DrawsFollowItsDensityWhoseMeanCosineIsTheAnisotropy) {
@@ -104,7 +89,7 @@ TEST(VolumeScattering, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
         SceneMaker colored = looking_down();
         colored.description().picture.background = Rgb{1, 1, 1};
         colored.add(ball({0, 0, 0}, 1), colored.material(fog({}, {0.5, 1, 2}, g, kNearlyOne)));
-        expect_mean(colored.compile(), "path_tracing:depth=1000", {1, 1, 1}, 0.01);
+        expect_mean(colored.compile(), "path_tracing:depth=1000", {1, 1, 1}, twelve(0.01));
     }
 }
 
@@ -118,7 +103,7 @@ TEST(VolumeScattering, WhatIsNotScatteredFallsByBeersLaw) {
     for (int i = 0; i < 3; ++i)
         expected[i] = 4.0 * std::exp(-1.5 * (absorption[i] + scattering[i]));
     for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
-        expect_mean(maker.compile(), renderer, expected, 0.02);
+        expect_mean(maker.compile(), renderer, expected, twelve(0.02));
     }
 }
 
@@ -146,7 +131,7 @@ TEST(VolumeScattering, ASlabInEvenLightShowsTheFirstOrderOfItsScattering) {
             expected[c] = sum;
         }
         for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
-            expect_mean(maker.compile(), renderer, expected, 0.01);
+            expect_mean(maker.compile(), renderer, expected, twelve(0.01));
         }
     }
 }
@@ -175,7 +160,7 @@ TEST(VolumeScattering, ALampInFogShinesByTheIntegralAlongTheView) {
             }
         }
         for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
-            expect_mean(maker.compile(), renderer, expected, 0.03);
+            expect_mean(maker.compile(), renderer, expected, twelve(0.03));
         }
     }
 }
@@ -189,7 +174,7 @@ TEST(VolumeScattering, NestedVolumesScatterByTheInnermost) {
     maker.add(rectangle({-9, -9, -4}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
     const double left = std::exp(-0.2 * 2.0);
     for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
-        expect_mean(maker.compile(), renderer, {left, left, left}, 0.02);
+        expect_mean(maker.compile(), renderer, {left, left, left}, twelve(0.02));
     }
 }
 
