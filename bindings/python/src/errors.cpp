@@ -15,14 +15,13 @@ struct Argument {
     std::string_view option, name;
 };
 
-constexpr std::array<Argument, 10> kArguments = {{{"--antialias", "antialias"},
+constexpr std::array<Argument, 9> kArguments = {{{"--antialias", "antialias"},
                                                   {"--aov", "layers"},
                                                   {"--environment", "environment"},
                                                   {"--filter", "filter"},
                                                   {"--noise", "noise"},
                                                   {"--sampler", "sampler"},
                                                   {"--spp", "spp"},
-                                                  {"--time", "time_limit"},
                                                   {"--time-limit", "time_limit"},
                                                   {"--view", "view"}}};
 

@@ -88,7 +88,7 @@ std::optional<SamplingPlan> parse_sampling(const SamplingTexts& texts) {
     }
     if (plan.has_rounds() && plan.sampler == find_sampler("regular")) {
         throw Error(ErrorKind::Usage,
-                    "--sampler regular has one set of samples only: --noise and --time need "
+                    "--sampler regular has one set of samples only: --noise and --time-limit need "
                     "another sampler");
     }
     return plan;

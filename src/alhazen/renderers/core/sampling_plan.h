@@ -1,6 +1,6 @@
 #pragma once
 /// Sampler, filter and stop rules of the options `--sampler NAME`,
-/// `--filter NAME:radius=R,shared=on`, `--noise X`, `--time 5m`.
+/// `--filter NAME:radius=R,shared=on`, `--noise X`, `--time-limit 5m`.
 
 #include <optional>
 #include <string>
