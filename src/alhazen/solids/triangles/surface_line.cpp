@@ -45,6 +45,14 @@ bool SurfaceLine::inside(const Vec3& p) {
 
 double SurfaceLine::distance(const Vec3& from, const Vec3& along, double limit) {
     double nearest = kInfinity;
+    hits_.clear();
+    solid_.hits({from, along, -limit, limit}, hits_);
+    // Normals tell walls from surfaces; a wall is two hits at one place.
+    const auto at_one = [](const Hit& a, const Hit& b) { return a.t == b.t; };
+    if (std::adjacent_find(hits_.begin(), hits_.end(), at_one) == hits_.end()) {
+        for (const Hit& hit : hits_) nearest = std::min(nearest, std::abs(hit.t));
+        return nearest;
+    }
     for (const SurfacePoint& p : cross(from, along, -limit, limit)) {
         nearest = std::min(nearest, std::abs(p.t));
     }
