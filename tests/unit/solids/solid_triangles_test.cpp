@@ -380,6 +380,55 @@ TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
     }
 }
 
+/// The area of the triangles that face away from all of the surface within `limit` of their
+/// middles.
+double area_turned_over(const IsolatedSolid& solid, const TriangleMesh& mesh, double limit) {
+    Random random(9);
+    double sum = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+        const Vec3 normal = cross(b - a, c - a), p = (a + b + c) / 3;
+        bool any = false, faces = false;
+        for (int k = 0; k < 200 && !faces; ++k) {
+            std::vector<IsolatedSolid::SurfacePoint> found;
+            solid.crossings({p, random.unit_vector(), -limit, limit}, found);
+            any = any || !found.empty();
+            for (const auto& point : found) faces = faces || dot(point.normal, normal) > 0;
+        }
+        if (any && !faces) sum += 0.5 * length(normal);
+    }
+    return sum;
+}
+
+TEST(SolidTriangles, AreNotTurnedOverBesideSharpEdges) {
+    Random random(21);
+    for (int round = 0; round < 24; ++round) {
+        SceneMaker maker;
+        const ObjectIndex cut = maker.object("random");
+        maker.description().objects.back().combine =
+            round % 2 == 0 ? Combine::Intersection : Combine::Difference;
+        const auto place = [&](double far) {
+            return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
+                   Affine::rotate(random.unit_vector(), random.uniform(0, 3));
+        };
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.1), cut);
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.9), cut);
+        maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.8}, MaterialId{0},
+                  place(0.9), cut);
+        (void)maker.material({});
+        maker.add(cut);
+        const SolidList solids(maker.compile().aggregate);
+        if (solids.count() != 1) continue;
+        const IsolatedSolid solid(solids, SolidId{0});
+        const double tolerance = round % 3 == 0 ? 0.04 : 0.015;
+        TriangleMesh mesh;
+        ASSERT_TRUE(make_solid_triangles(solid, tolerance, 2'000'000, mesh));
+        EXPECT_TRUE(mesh_edges(mesh).oriented()) << round;
+        // Less than a side of one of the smallest cells, which are not tested.
+        EXPECT_LE(area_turned_over(solid, mesh, tolerance), tolerance * tolerance / 12) << round;
+    }
+}
+
 TEST(SolidTriangles, HaveALimit) {
     SceneMaker maker;
     maker.add(Superellipsoid{});

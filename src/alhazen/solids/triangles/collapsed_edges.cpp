@@ -358,7 +358,7 @@ class EdgeCollapser {
             c.corners.push_back(corner);
             for (const std::uint32_t v : {corner, s.here, s.beyond}) {
                 const double cosine = dot(normal, mesh_.normals[v]);
-                if (cosine < std::min(kSmooth, star_.alignment)) return false;
+                if (cosine < std::min(kSmooth, std::max(star_.alignment, 0.0))) return false;
             }
             c.width = std::min(c.width, width_of(end.offset, s.offset, t.offset));
         }

@@ -8,12 +8,13 @@
 /// normals of the exact surface. All points of a face are within a cell's diagonal of the surface,
 /// so cells whose diagonal is half the tolerance need no test. Faces of larger cells, where a
 /// vertex may be half a cell beside its own to be on an edge of the surface, are accepted if lines
-/// through 15 points of each triangle meet the surface within half the tolerance, and no part or
-/// gap thicker than the tolerance lies within an edge of a cell. The largest cells are 1/24 of the
-/// size of the solid, or half the least side of the box of a leaf, where these are not too many.
-/// The middles of parts and gaps are not missed of lines through each leaf, in the directions in
-/// which it is thin or long and as far apart as it is thin (at most 1024 along each; fewer from 64
-/// leaves on, at least one), and of lines a quarter of the largest cells apart.
+/// through 15 points of each triangle meet the surface within half the tolerance, no triangle faces
+/// away from all of the surface there, and no part or gap thicker than the tolerance lies within an
+/// edge of a cell. The largest cells are 1/24 of the size of the solid, or half the least side of
+/// the box of a leaf, where these are not too many. The middles of parts and gaps are not missed of
+/// lines through each leaf, in the directions in which it is thin or long and as far apart as it is
+/// thin (at most 1024 along each; fewer from 64 leaves on, at least one), and of lines a quarter of
+/// the largest cells apart.
 /// Parts thinner than the tolerance may be missing. Texture coordinates are those of the shape
 /// whose surface is at the triangle, also of the operands of a CSG object: vertices at which they
 /// change by a jump (between shapes, faces and at seams) are several. A triangle across a seam goes

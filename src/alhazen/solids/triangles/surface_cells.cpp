@@ -388,18 +388,29 @@ void SurfaceCells::test_faces() {
             })) {
             continue;
         }
-        edge.is_near = is_face_near(face(edge));
+        edge.is_near = is_face_near(edge, face(edge));
         if (!edge.is_near) ask(edge.at);
     }
 }
 
-bool SurfaceCells::is_face_near(const Face& face) {
+bool SurfaceCells::is_face_near(const Edge& edge, const Face& face) {
     for (std::size_t k = 0; k < face.triangle_count(); ++k) {
         std::array<std::uint32_t, 3> cells{};
         for (std::size_t i = 0; i < 3; ++i) cells[i] = face.cells[face.triangles[k][i]];
-        if (!is_near(cells)) return false;
+        if (!is_near(cells) || !is_face_turned_out(edge, cells)) return false;
     }
     return true;
+}
+
+bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells) {
+    const Vec3 a = point(cells[0]), b = point(cells[1]), c = point(cells[2]);
+    const Vec3 normal = unit_or(cross(b - a, c - a), edge.met.normal);
+    if (dot(normal, edge.met.normal) > 0.0 &&
+        std::all_of(cells.begin(), cells.end(),
+                    [&](std::uint32_t k) { return dot(normal, vertex(k).normal) > 0.0; })) {
+        return true;
+    }
+    return line_.faces((a + b + c) / 3, normal, limit_);
 }
 
 bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& cells) {

@@ -138,7 +138,10 @@ class SurfaceCells {
     [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
     /// Asks for a division of cells whose faces are not near the surface.
     void test_faces();
-    bool is_face_near(const Face& face);
+    bool is_face_near(const Edge& edge, const Face& face);
+    /// False if a triangle of a face is turned over: it faces away from the surface at the edge and
+    /// at its corners, and from the surface near its middle.
+    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells);
     /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
     /// between two cells in one of the triangles beside it.
     bool is_near(const std::array<std::uint32_t, 3>& cells);

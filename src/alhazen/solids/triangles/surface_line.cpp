@@ -1,12 +1,26 @@
 #include "alhazen/solids/triangles/surface_line.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
+
+namespace {
+
+const double kDiagonal = std::sqrt(1.0 / 3.0);
+const std::array<Vec3, 7> kDirections{{{1, 0, 0},
+                                       {0, 1, 0},
+                                       {0, 0, 1},
+                                       {kDiagonal, kDiagonal, kDiagonal},
+                                       {-kDiagonal, kDiagonal, kDiagonal},
+                                       {kDiagonal, -kDiagonal, kDiagonal},
+                                       {kDiagonal, kDiagonal, -kDiagonal}}};
+
+}  // namespace
 
 const std::vector<SurfaceLine::SurfacePoint>& SurfaceLine::cross(const Vec3& from,
                                                                  const Vec3& along, double t_min,
@@ -61,12 +75,18 @@ double SurfaceLine::distance(const Vec3& from, const Vec3& along, double limit) 
 
 bool SurfaceLine::is_near(const Vec3& p, const Vec3& face, double limit) {
     if (distance(p, face, limit) <= limit) return true;
-    const double c = std::sqrt(1.0 / 3.0);
-    for (const Vec3& along : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{c, c, c},
-                              Vec3{-c, c, c}, Vec3{c, -c, c}, Vec3{c, c, -c}}) {
-        if (distance(p, along, limit) <= limit) return true;
-    }
-    return false;
+    return std::any_of(kDirections.begin(), kDirections.end(),
+                       [&](const Vec3& along) { return distance(p, along, limit) <= limit; });
+}
+
+bool SurfaceLine::faces(const Vec3& p, const Vec3& face, double limit) {
+    const auto meets = [&](const Vec3& along) {
+        const std::vector<SurfacePoint>& all = cross(p, along, -limit, limit);
+        return std::any_of(all.begin(), all.end(), [&](const SurfacePoint& point) {
+            return dot(point.normal, face) > 0.0;
+        });
+    };
+    return meets(face) || std::any_of(kDirections.begin(), kDirections.end(), meets);
 }
 
 bool SurfaceLine::is_thin(const Vec3& from, const Vec3& along, const Interval& part, double limit) {
