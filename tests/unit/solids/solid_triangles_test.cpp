@@ -429,6 +429,65 @@ TEST(SolidTriangles, AreNotTurnedOverBesideSharpEdges) {
     }
 }
 
+TEST(SolidTriangles, HaveALimitThatNamesALargerTolerance) {
+    SceneMaker maker;
+    maker.add(Superellipsoid{});
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    for (const std::uint64_t most : {20'000u, 100'000u}) {
+        TriangleMesh mesh;
+        SolidTrianglesReport report{.larger_tolerance = 1e-6};
+        int tries = 0;
+        for (bool made = false; !made && tries < 9; ++tries) {
+            const double tolerance = report.larger_tolerance;
+            made = make_solid_triangles(solid, tolerance, most, mesh, false, &report);
+            if (!made) {
+                EXPECT_GT(report.larger_tolerance, tolerance);
+            }
+        }
+        EXPECT_LE(tries, 4) << report.larger_tolerance;
+        EXPECT_LT(report.larger_tolerance, 0.05);
+    }
+}
+
+TEST(SolidTriangles, TellOfPartsAndGapsThatAreTooThin) {
+    // A ball with a bar through it, a box, and bars and bores beside them.
+    struct Case {
+        int count;
+        double radius;
+        int lost;
+    };
+    for (const Case& own : {Case{0, 0.1, 0}, {1, 2e-4, 2}, {3, 2e-4, 6}, {3, 0.02, 0}}) {
+        SceneMaker maker;
+        const ObjectIndex all = maker.object("bars");
+        const ObjectIndex cut = maker.object("cut");
+        maker.description().objects[1].combine = Combine::Union;
+        maker.description().objects[2].combine = Combine::Difference;
+        maker.add(Sphere{}, MaterialId{0}, {}, all);
+        maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.1}, MaterialId{0}, {},
+                  all);
+        maker.add(BoxShape{.lo = {3, -2, -2}, .hi = {5, 2, 2}}, MaterialId{0}, {}, cut);
+        for (int k = 0; k < own.count; ++k) {
+            const double x = 1.5 + 0.2 * k;
+            maker.add(Cylinder{.base = {x, 0.3, -2}, .top = {x, 0.5, 2}, .radius = own.radius},
+                      MaterialId{0}, {}, all);
+            maker.add(
+                Cylinder{
+                    .base = {x + 2, 0.3, -2.5}, .top = {x + 2, 0.5, 2.5}, .radius = own.radius},
+                MaterialId{0}, {}, cut);
+        }
+        maker.add(cut, MaterialId{0}, {}, all);
+        (void)maker.material({});
+        maker.add(all);
+        const SolidList solids(maker.compile().aggregate);
+        const IsolatedSolid solid(solids, SolidId{0});
+        TriangleMesh mesh;
+        SolidTrianglesReport report;
+        ASSERT_TRUE(make_solid_triangles(solid, 0.02, 2'000'000, mesh, false, &report));
+        EXPECT_EQ(report.lost_parts, std::uint64_t(own.lost));
+    }
+}
+
 TEST(SolidTriangles, HaveALimit) {
     SceneMaker maker;
     maker.add(Superellipsoid{});

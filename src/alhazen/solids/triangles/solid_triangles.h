@@ -29,12 +29,23 @@
 
 namespace alhazen {
 
+/// What a mesh of a solid lacks.
+struct SolidTrianglesReport {
+    /// If there are too many triangles, a tolerance that may leave no more than the limit; 0 if
+    /// none is known.
+    double larger_tolerance = 0;
+    /// Leaves of the solid, or gaps that they leave, thinner than the tolerance and without a
+    /// triangle beside them.
+    std::uint64_t lost_parts = 0;
+};
+
 /// Creates a mesh with the materials of a CSG object at its vertices (the same for the three
 /// vertices of a triangle). Returns false if there would be more than `max_triangles` before they
 /// are merged. `with_uvs` false: texture coordinates are zero, and there are fewer vertices.
 /// Preconditions: the box of the solid is bounded; tolerance > 0.
 [[nodiscard]] bool make_solid_triangles(const IsolatedSolid& solid, double tolerance,
                                         std::uint64_t max_triangles, TriangleMesh& mesh,
-                                        bool with_uvs = false);
+                                        bool with_uvs = false,
+                                        SolidTrianglesReport* report = nullptr);
 
 }  // namespace alhazen
