@@ -203,6 +203,17 @@ bilinear_patch { material = "m"; transform = %s }
         self.assertIn(told, result.stderr)
         self.assertIn("the scene has no triangles to write", result.stderr)
 
+    def test_parts_that_are_too_thin_are_told(self):
+        text = ('alhazen 1\nunion "pin" {{ sphere {{ radius = 1 }} '
+                "cylinder {{ base = (1.5, 0.3, -2); top = (1.5, 0.5, 2); radius = {} }} }}\n")
+        for radius, told in ("0.0002", True), ("0.05", False):
+            scene = self.write("pin.alhazen", text.format(radius))
+            result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.02")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            line = "warning: " + scene + ":2:1: pin: 1 of its parts and gaps is thinner than the tolerance and left out"
+            self.assertEqual(line in result.stderr, told, result.stderr)
+            self.assertEqual(result.stderr.count("warning: "), int(told), result.stderr)
+
     def test_what_has_no_triangles_is_refused_or_stays(self):
         scene = self.write("plane.alhazen", "alhazen 1\nsphere { radius = 1 }\nplane \"floor\" { point = (0, -1, 0) }\n")
         result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1")

@@ -356,6 +356,10 @@ void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found,
     }
 }
 
+void IsolatedSolid::hits(const Ray& ray, std::vector<Hit>& found) const {
+    aggregate_->all_hits(transformed(world_.inner_from_outer, ray), found, nullptr);
+}
+
 IsolatedSolid::Coordinates IsolatedSolid::coordinates(const Vec3& near, const Hit& hit) const {
     Hit there = hit;
     there.t = 0.0;

@@ -7,6 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/session/conversion/placed_meshes.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/load.h"
 #include "support/image_texture.h"
 #include "support/scene_maker.h"
@@ -98,6 +99,34 @@ TEST(ConvertMeshes, ASceneWithoutTrianglesIsAnError) {
     EXPECT_NE(message_of(maker.description(), folder.path() / "a.ply", ErrorKind::Scene, options)
                   .find("no triangles"),
               std::string::npos);
+}
+
+TEST(Tessellate, TooManyTrianglesNameALargerTolerance) {
+    SceneMaker maker;
+    (void)maker.material({});
+    const ObjectIndex object = maker.object("twice");
+    maker.add(Superellipsoid{}, MaterialId{0}, {}, object);
+    maker.add(object, MaterialId{0}, Affine::scale({2, 2, 2}));
+    const auto message_with = [&](double tolerance, std::uint64_t most) {
+        SceneDescription scene = maker.description();
+        try {
+            (void)tessellate(scene, tolerance, false, most);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Resource);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string message = message_with(1e-6, 20'000);
+    EXPECT_NE(message.find("with a tolerance of 1e-06 the scene has more than 20000 triangles; "),
+              std::string::npos)
+        << message;
+    const std::size_t end = message.find(" may do");
+    ASSERT_NE(end, std::string::npos) << message;
+    const double larger = std::stod(message.substr(message.rfind(' ', end - 1)));
+    EXPECT_GT(larger, 1e-6);
+    EXPECT_LT(larger, 0.1);
+    EXPECT_EQ(message_with(8 * larger, 20'000), "");
 }
 
 /// Each object places the previous one twice: 2^30 placements of the first.

@@ -380,6 +380,114 @@ TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
     }
 }
 
+/// The area of the triangles that face away from all of the surface within `limit` of their
+/// middles.
+double area_turned_over(const IsolatedSolid& solid, const TriangleMesh& mesh, double limit) {
+    Random random(9);
+    double sum = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+        const Vec3 normal = cross(b - a, c - a), p = (a + b + c) / 3;
+        bool any = false, faces = false;
+        for (int k = 0; k < 200 && !faces; ++k) {
+            std::vector<IsolatedSolid::SurfacePoint> found;
+            solid.crossings({p, random.unit_vector(), -limit, limit}, found);
+            any = any || !found.empty();
+            for (const auto& point : found) faces = faces || dot(point.normal, normal) > 0;
+        }
+        if (any && !faces) sum += 0.5 * length(normal);
+    }
+    return sum;
+}
+
+TEST(SolidTriangles, AreNotTurnedOverBesideSharpEdges) {
+    Random random(21);
+    for (int round = 0; round < 24; ++round) {
+        SceneMaker maker;
+        const ObjectIndex cut = maker.object("random");
+        maker.description().objects.back().combine =
+            round % 2 == 0 ? Combine::Intersection : Combine::Difference;
+        const auto place = [&](double far) {
+            return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
+                   Affine::rotate(random.unit_vector(), random.uniform(0, 3));
+        };
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.1), cut);
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.9), cut);
+        maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.8}, MaterialId{0},
+                  place(0.9), cut);
+        (void)maker.material({});
+        maker.add(cut);
+        const SolidList solids(maker.compile().aggregate);
+        if (solids.count() != 1) continue;
+        const IsolatedSolid solid(solids, SolidId{0});
+        const double tolerance = round % 3 == 0 ? 0.04 : 0.015;
+        TriangleMesh mesh;
+        ASSERT_TRUE(make_solid_triangles(solid, tolerance, 2'000'000, mesh));
+        EXPECT_TRUE(mesh_edges(mesh).oriented()) << round;
+        // Less than a side of one of the smallest cells, which are not tested.
+        EXPECT_LE(area_turned_over(solid, mesh, tolerance), tolerance * tolerance / 12) << round;
+    }
+}
+
+TEST(SolidTriangles, HaveALimitThatNamesALargerTolerance) {
+    SceneMaker maker;
+    maker.add(Superellipsoid{});
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    for (const std::uint64_t most : {20'000u, 100'000u}) {
+        TriangleMesh mesh;
+        SolidTrianglesReport report{.larger_tolerance = 1e-6};
+        int tries = 0;
+        for (bool made = false; !made && tries < 9; ++tries) {
+            const double tolerance = report.larger_tolerance;
+            made = make_solid_triangles(solid, tolerance, most, mesh, false, &report);
+            if (!made) {
+                EXPECT_GT(report.larger_tolerance, tolerance);
+            }
+        }
+        EXPECT_LE(tries, 4) << report.larger_tolerance;
+        EXPECT_LT(report.larger_tolerance, 0.05);
+    }
+}
+
+TEST(SolidTriangles, TellOfPartsAndGapsThatAreTooThin) {
+    // A ball with a bar through it, a box, and bars and bores beside them.
+    struct Case {
+        int count;
+        double radius;
+        int lost;
+    };
+    for (const Case& own : {Case{0, 0.1, 0}, {1, 2e-4, 2}, {3, 2e-4, 6}, {3, 0.02, 0}}) {
+        SceneMaker maker;
+        const ObjectIndex all = maker.object("bars");
+        const ObjectIndex cut = maker.object("cut");
+        maker.description().objects[1].combine = Combine::Union;
+        maker.description().objects[2].combine = Combine::Difference;
+        maker.add(Sphere{}, MaterialId{0}, {}, all);
+        maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.1}, MaterialId{0}, {},
+                  all);
+        maker.add(BoxShape{.lo = {3, -2, -2}, .hi = {5, 2, 2}}, MaterialId{0}, {}, cut);
+        for (int k = 0; k < own.count; ++k) {
+            const double x = 1.5 + 0.2 * k;
+            maker.add(Cylinder{.base = {x, 0.3, -2}, .top = {x, 0.5, 2}, .radius = own.radius},
+                      MaterialId{0}, {}, all);
+            maker.add(
+                Cylinder{
+                    .base = {x + 2, 0.3, -2.5}, .top = {x + 2, 0.5, 2.5}, .radius = own.radius},
+                MaterialId{0}, {}, cut);
+        }
+        maker.add(cut, MaterialId{0}, {}, all);
+        (void)maker.material({});
+        maker.add(all);
+        const SolidList solids(maker.compile().aggregate);
+        const IsolatedSolid solid(solids, SolidId{0});
+        TriangleMesh mesh;
+        SolidTrianglesReport report;
+        ASSERT_TRUE(make_solid_triangles(solid, 0.02, 2'000'000, mesh, false, &report));
+        EXPECT_EQ(report.lost_parts, std::uint64_t(own.lost));
+    }
+}
+
 TEST(SolidTriangles, HaveALimit) {
     SceneMaker maker;
     maker.add(Superellipsoid{});

@@ -224,13 +224,18 @@ class Tessellation {
     /// Tessellates a closed shape or a solid by its crossings with lines. Returns why that failed;
     /// empty on success.
     std::string append_by_lines(const SceneDescription& alone, double tolerance, bool with_uvs,
-                                TriangleMesh& mesh) const {
+                                TriangleMesh& mesh) {
+        lost_parts_ = 0;
+        larger_tolerance_ = 0;
         const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
         if (solids.count() != 1) return "bounds no volume";
         const IsolatedSolid solid(solids, SolidId{0});
         if (!solid.box().empty() && !solid.box().bounded()) return "is endless";
         const std::uint64_t most = max_triangles_ - report_.triangles;
-        const bool made = make_solid_triangles(solid, tolerance, most, mesh, with_uvs);
+        SolidTrianglesReport report;
+        const bool made = make_solid_triangles(solid, tolerance, most, mesh, with_uvs, &report);
+        lost_parts_ = report.lost_parts;
+        larger_tolerance_ = report.larger_tolerance * (tolerance_ / tolerance);
         return made ? "" : kTooManyTriangles;
     }
 
@@ -263,8 +268,12 @@ class Tessellation {
                 const char* what, const TriangleMesh& mesh) {
         if (failed == kTooManyTriangles) {
             throw Error(ErrorKind::Resource,
-                        fmt::format("{}: with this tolerance the scene has more than {} triangles",
-                                    to_string(where), max_triangles_));
+                        fmt::format("{}: {}: with a tolerance of {:g} the scene has more than {} "
+                                    "triangles{}",
+                                    to_string(where), name, tolerance_, max_triangles_,
+                                    larger_tolerance_ > 0
+                                        ? fmt::format("; {:.2g} may do", larger_tolerance_)
+                                        : "; a larger one leaves fewer"));
         }
         if (!failed.empty()) {
             refuse(where, name, what + failed);
@@ -275,6 +284,11 @@ class Tessellation {
                 fmt::format("{}: {}: no triangles: {}is empty or thinner than the tolerance",
                             to_string(where), name, what));
             return true;
+        }
+        if (lost_parts_ > 0) {
+            report_.lost.push_back(fmt::format(
+                "{}: {}: {} of its parts and gaps {} thinner than the tolerance and left out",
+                to_string(where), name, lost_parts_, lost_parts_ == 1 ? "is" : "are"));
         }
         ++report_.shapes;
         report_.triangles += mesh.triangles.size();
@@ -295,6 +309,8 @@ class Tessellation {
                 return s.kName;
             },
             prepared);
+        lost_parts_ = 0;
+        larger_tolerance_ = 0;
         auto mesh = std::make_shared<TriangleMesh>();
         const double tolerance = tolerance_ / (stretch * exact_stretch(part.object_from_part));
         std::string failed =
@@ -328,6 +344,9 @@ class Tessellation {
     TessellationReport report_;
     std::string refused_;
     int refusals_ = 0;
+    /// Of the shape that was made last, by lines (solid_triangles.h).
+    std::uint64_t lost_parts_ = 0;
+    double larger_tolerance_ = 0;
 };
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "alhazen/base/interruption.h"
 #include "alhazen/geometry/polygon/merged_positions.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
@@ -63,6 +63,7 @@ struct Star {
     double off = 0, off_uv = 0;       ///< the largest of the triangles
     double width = 1, alignment = 1;  ///< the least of the triangles, and of cosines of corners
     double tallest = 0;               ///< the largest size of a height
+    double sag = 0;                   ///< the least size of a height, all on one side; else 0
 
     [[nodiscard]] std::size_t size() const { return spokes.size(); }
     [[nodiscard]] const Spoke& operator[](std::size_t k) const {
@@ -88,6 +89,7 @@ class EdgeCollapser {
         has_uvs_ = std::any_of(mesh.uvs.begin(), mesh.uvs.end(),
                                [](const Vec2& uv) { return uv.x != 0.0 || uv.y != 0.0; });
         waits_.assign(mesh.positions.size(), 0);
+        needs_.assign(mesh.positions.size(), 0.0);
         next_.assign(3 * mesh.triangles.size(), kNone);
         triangles_.reserve(mesh.triangles.size());
         for (const auto& t : mesh.triangles) {
@@ -106,11 +108,13 @@ class EdgeCollapser {
             ++pass_;
             for (const std::uint32_t p : trying_) {
                 waits_[p] = 0;
-                if (heads_[p] == kNone) continue;
+                if (heads_[p] == kNone || needs_[p] > most_) continue;
                 interruption_point();
+                needs_[p] = kInfinity;
                 if (!find_star(p)) continue;
                 // Neighbours of a collapse wait for the next pass: triangles grow evenly.
                 if (is_busy()) {
+                    needs_[p] = 0;
                     wait(p);
                 } else if (find_collapse()) {
                     collapse();
@@ -259,11 +263,15 @@ class EdgeCollapser {
         }
         const Vec3 x = perpendicular(along), y = cross(along, x);
         star_.tallest = 0;
+        double lowest = kInfinity, highest = -kInfinity;
         for (Star::Spoke& s : star_.spokes) {
             s.flat = {dot(x, s.offset), dot(y, s.offset)};
             s.height = dot(along, s.offset);
             star_.tallest = std::max(star_.tallest, std::abs(s.height));
+            lowest = std::min(lowest, s.height);
+            highest = std::max(highest, s.height);
         }
+        star_.sag = std::max({lowest, -highest, 0.0});
         return true;
     }
 
@@ -272,10 +280,22 @@ class EdgeCollapser {
     /// widest triangles. False if there is none.
     bool find_collapse() {
         if (!prepare_star() || (star_.creases != 0 && star_.creases != 2)) return false;
+        double& needs = needs_[star_.position];
+        // The position is over or under triangles between corners of the ring.
+        const double least = star_.off + star_.sag;
+        if (least > most_) {
+            needs = least;
+            return false;
+        }
         bool any = false;
         for (std::size_t k = 0; k < star_.size(); ++k) {
             if (star_.creases != 0 && !star_[k].crease) continue;
-            if (!keeps_topology(k) || !measure(k)) continue;
+            if (!keeps_topology(k)) {
+                // That may change while the star does not.
+                needs = 0;
+                continue;
+            }
+            if (!measure(k)) continue;
             constexpr double kEqual = 0.05;
             const bool equal = any && std::abs(tried_collapse_.off - best_.off) <= kEqual * most_;
             if (any &&
@@ -338,7 +358,7 @@ class EdgeCollapser {
             c.corners.push_back(corner);
             for (const std::uint32_t v : {corner, s.here, s.beyond}) {
                 const double cosine = dot(normal, mesh_.normals[v]);
-                if (cosine < std::min(kSmooth, star_.alignment)) return false;
+                if (cosine < std::min(kSmooth, std::max(star_.alignment, 0.0))) return false;
             }
             c.width = std::min(c.width, width_of(end.offset, s.offset, t.offset));
         }
@@ -359,7 +379,10 @@ class EdgeCollapser {
         Collapse& c = tried_collapse_;
         c.off = star_.off + off;
         c.off_uv = star_.off_uv + off_uv;
-        return c.off <= most_ && c.off_uv <= most_uv_;
+        if (!(c.off_uv <= most_uv_)) return false;
+        if (c.off <= most_) return true;
+        needs_[star_.position] = std::min(needs_[star_.position], c.off);
+        return false;
     }
     /// Where the projection of the old edges to the ring crosses that of the new ones, and at the
     /// position itself.
@@ -368,7 +391,7 @@ class EdgeCollapser {
         const std::size_t n = star_.size();
         const Star::Spoke& end = star_[spoke];
         off = 0;
-        double deepest = -std::numeric_limits<double>::infinity(), off_here = 0, off_uv_here = 0;
+        double deepest = -kInfinity, off_here = 0, off_uv_here = 0;
         for (std::size_t k = spoke + 1; k + 1 < spoke + n; ++k) {
             // The new triangle that the position is in.
             const Star::Spoke &s = star_[k], &t = star_[k + 1];
@@ -447,7 +470,10 @@ class EdgeCollapser {
         for (const Star::Spoke& s : star_.spokes) busy_[s.point] = pass_;
         // The end has new neighbours, and they have new triangles.
         for (std::uint32_t c = heads_[end]; c != kNone; c = next_[c]) {
-            for (const std::uint32_t p : triangles_[c / 3].points) wait(p);
+            for (const std::uint32_t p : triangles_[c / 3].points) {
+                needs_[p] = 0;
+                wait(p);
+            }
         }
     }
 
@@ -461,6 +487,8 @@ class EdgeCollapser {
     std::vector<std::uint32_t> marks_;  ///< [position]
     std::vector<std::uint32_t> busy_;   ///< [position] the last pass in which its triangles changed
     std::vector<std::uint8_t> waits_;   ///< [position] is to be tried
+    /// [position] While its star is as it is, no collapse keeps a bound below this.
+    std::vector<double> needs_;
     std::vector<std::uint32_t> waiting_, trying_;  ///< positions, in the next pass and in this one
     std::uint32_t mark_ = 0, pass_ = 0;
     Star star_;

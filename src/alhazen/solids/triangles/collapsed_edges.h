@@ -12,7 +12,7 @@
 /// or texture coordinates moves by no more than that, along the surface also.
 /// Conventions: vertices of equal position are one. A closed mesh stays closed; what touches itself
 /// stays as it is there. Triangles keep their side: normals at the corners deviate from a new
-/// triangle's by no more than acos 0.8, or than from the old ones.
+/// triangle's by no more than acos 0.8, or than from the old ones, and by less than a right angle.
 /// Complexity and threads: O(triangles), serial: the same for any number of threads.
 
 #include "alhazen/shapes/meshes/triangle_mesh.h"

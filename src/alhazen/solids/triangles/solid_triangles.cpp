@@ -94,7 +94,7 @@ class SurfaceMesh {
 }  // namespace
 
 bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uint64_t max_triangles,
-                          TriangleMesh& mesh, bool with_uvs) {
+                          TriangleMesh& mesh, bool with_uvs, SolidTrianglesReport* report) {
     mesh = TriangleMesh{};
     const Box3 box = solid.box();
     if (box.empty()) return true;
@@ -113,7 +113,11 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
         if (with_uvs) coordinates.emplace(solid);
         SolidCoordinates* const places = coordinates ? &*coordinates : nullptr;
         SurfaceCells cells(solid, cell, halvings, tolerance, places);
-        if (!cells.divide(max_triangles)) return false;
+        if (!cells.divide(max_triangles)) {
+            if (report != nullptr) report->larger_tolerance = cells.larger_tolerance();
+            return false;
+        }
+        if (report != nullptr) report->lost_parts = cells.lost_parts();
         SurfaceMesh(cells, places, mesh).make();
     }
     constexpr double kCoordinates = 1.0 / 512;

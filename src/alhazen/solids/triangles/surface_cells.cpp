@@ -23,6 +23,8 @@ constexpr double kSmoothCosine = 0.8;
 /// How far from its cell a vertex may be, in cells, where triangles are tested: an edge of the
 /// surface beside a cell is met.
 constexpr double kVertexBeyond = 0.5;
+/// Of so many faces that are not near, the distance of one is measured.
+constexpr std::size_t kFacesPerDistance = 64;
 /// Distance of lines that are not edges of cells, in cells of the largest size.
 constexpr double kLineSpacing = 0.25;
 
@@ -78,17 +80,17 @@ SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings
     const double count = static_cast<double>(parts.size());
     const double cells = std::clamp(kMostOfParts / count, kLeastOfPart, kMostOfPart);
     const double lines = std::clamp(kMostLinesInParts / count, 1.0, kMostLinesInPart);
-    for (const IsolatedSolid::SurfacePart& part : parts) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
         interruption_point();
-        split_part(part.box, cells);
-        start_part(part, lines);
+        split_part(parts[k].box, cells);
+        start_part(parts[k], k, lines);
     }
 }
 
 bool SurfaceCells::divide(std::uint64_t max_triangles) {
     do {
         drop_edges();
-        find_edges();
+        find_edges(max_triangles);
         if (2 * edges_.size() > max_triangles) return false;
         place_vertices();
         test_faces();
@@ -123,7 +125,8 @@ void SurfaceCells::split_part(const Box3& part, double most) {
     split_to(0, part, size);
 }
 
-void SurfaceCells::start_part(const IsolatedSolid::SurfacePart& part, double most) {
+void SurfaceCells::start_part(const IsolatedSolid::SurfacePart& part, std::size_t number,
+                              double most) {
     if (part.own.empty() || !part.own.bounded()) return;
     const Vec3 sides = part.own.size();
     const double least = std::min({sides.x, sides.y, sides.z});
@@ -148,7 +151,9 @@ void SurfaceCells::start_part(const IsolatedSolid::SurfacePart& part, double mos
                 const Vec3 from = corner + (i / across) * along[u] + (k / down) * along[v];
                 const auto start = [&](double lo, double hi) {
                     lo = std::max(lo, 0.0), hi = std::min(hi, 1.0);
-                    if (lo < hi) start_at(from + 0.5 * (lo + hi) * along[axis]);
+                    if (!(lo < hi)) return;
+                    const Vec3 p = from + 0.5 * (lo + hi) * along[axis];
+                    if (!start_at(p)) thin_points_.push_back({p, number});
                 };
                 double last = kInfinity;
                 const std::vector<Interval> spans = line_.spans(from, along[axis]);
@@ -162,7 +167,7 @@ void SurfaceCells::start_part(const IsolatedSolid::SurfacePart& part, double mos
     }
 }
 
-void SurfaceCells::start_at(const Vec3& p) {
+bool SurfaceCells::start_at(const Vec3& p) {
     // In all directions the surface is at least 0.88 times as far as along the nearest of these.
     constexpr double kCellsPerDistance = 0.5;
     const double c = std::sqrt(1.0 / 3.0);
@@ -170,11 +175,12 @@ void SurfaceCells::start_at(const Vec3& p) {
     for (const Vec3& along : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{c, c, c},
                               Vec3{-c, c, c}, Vec3{c, -c, c}, Vec3{c, c, -c}}) {
         nearest = std::min(nearest, line_.distance(p, along, nearest));
-        if (nearest <= limit_) return;
+        if (nearest <= limit_) return false;
     }
     std::uint32_t size = 1;
     while (2.0 * size * unit_ <= kCellsPerDistance * nearest && size < tree_[0].size) size *= 2;
     split_to(0, {p, p}, size);
+    return true;
 }
 
 void SurfaceCells::ask(const CellTree::Edge& edge) {
@@ -258,8 +264,9 @@ void SurfaceCells::drop_edges() {
     edges_.resize(kept);
 }
 
-void SurfaceCells::find_edges() {
+void SurfaceCells::find_edges(std::uint64_t max_triangles) {
     tree_.visit_new_edges([&](const CellTree::Edge& at) {
+        if (2 * edges_.size() > max_triangles) return;
         interruption_point();
         const bool may_split = std::any_of(at.cells.begin(), at.cells.end(),
                                            [&](std::uint32_t c) { return !is_least(c); });
@@ -380,6 +387,8 @@ double SurfaceCells::badness(const Face& face, std::size_t first, const Vec3& no
 }
 
 void SurfaceCells::test_faces() {
+    distances_.clear();
+    std::size_t count = 0;
     for (Edge& edge : edges_) {
         interruption_point();
         const auto& cells = edge.at.cells;
@@ -388,18 +397,53 @@ void SurfaceCells::test_faces() {
             })) {
             continue;
         }
-        edge.is_near = is_face_near(face(edge));
-        if (!edge.is_near) ask(edge.at);
+        const Face made = face(edge);
+        edge.is_near = is_face_near(edge, made);
+        if (edge.is_near) continue;
+        ask(edge.at);
+        if (count++ % kFacesPerDistance == 0) distances_.push_back(distance_of(made));
     }
 }
 
-bool SurfaceCells::is_face_near(const Face& face) {
+double SurfaceCells::distance_of(const Face& face) {
+    double most = 0;
+    for (std::size_t k = 0; k < face.triangle_count(); ++k) {
+        const auto& t = face.triangles[k];
+        const Vec3 a = point(face.cells[t[0]]), b = point(face.cells[t[1]]);
+        const Vec3 c = point(face.cells[t[2]]);
+        const Vec3 normal = unit_or(cross(b - a, c - a), vertex(face.cells[t[0]]).normal);
+        const Vec3 middle = (a + b + c) / 3;
+        for (const Vec3& p : {middle, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), a, b, c}) {
+            const double distance = line_.distance(p, normal, 2 * cell_);
+            if (distance < kInfinity) most = std::max(most, distance);
+        }
+    }
+    return most;
+}
+
+double SurfaceCells::larger_tolerance() const {
+    if (distances_.empty()) return 0;
+    return 2 * std::max(*std::max_element(distances_.begin(), distances_.end()), 2 * limit_);
+}
+
+bool SurfaceCells::is_face_near(const Edge& edge, const Face& face) {
     for (std::size_t k = 0; k < face.triangle_count(); ++k) {
         std::array<std::uint32_t, 3> cells{};
         for (std::size_t i = 0; i < 3; ++i) cells[i] = face.cells[face.triangles[k][i]];
-        if (!is_near(cells)) return false;
+        if (!is_near(cells) || !is_face_turned_out(edge, cells)) return false;
     }
     return true;
+}
+
+bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells) {
+    const Vec3 a = point(cells[0]), b = point(cells[1]), c = point(cells[2]);
+    const Vec3 normal = unit_or(cross(b - a, c - a), edge.met.normal);
+    if (dot(normal, edge.met.normal) > 0.0 &&
+        std::all_of(cells.begin(), cells.end(),
+                    [&](std::uint32_t k) { return dot(normal, vertex(k).normal) > 0.0; })) {
+        return true;
+    }
+    return line_.faces((a + b + c) / 3, normal, limit_);
 }
 
 bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& cells) {
@@ -475,6 +519,31 @@ std::uint32_t SurfaceCells::leaf_at(const Vec3& p) const {
         cell = child;
     }
     return cell;
+}
+
+bool SurfaceCells::any_vertex(std::uint32_t cell, const Box3& box) const {
+    const CellTree::Cell& own = tree_[cell];
+    const Vec3 lo = position(own.at);
+    for (int k = 0; k < 3; ++k) {
+        if (lo[k] > box.hi[k] || lo[k] + unit_ * own.size < box.lo[k]) return false;
+    }
+    if (tree_.is_leaf(cell)) return vertex_of_[cell] != kNone;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        if (any_vertex(own.first_child + k, box)) return true;
+    }
+    return false;
+}
+
+std::size_t SurfaceCells::lost_parts() const {
+    std::size_t count = 0, last = 0;
+    const Vec3 aside = 2 * limit_ * Vec3{1, 1, 1};
+    for (const ThinPoint& thin : thin_points_) {
+        if (count > 0 && thin.part == last) continue;
+        if (any_vertex(0, {thin.point - aside, thin.point + aside})) continue;
+        ++count;
+        last = thin.part;
+    }
+    return count;
 }
 
 }  // namespace alhazen

@@ -65,6 +65,12 @@ class SurfaceCells {
     /// Divides cells until all faces are within half the tolerance. False if there would be more
     /// triangles than given; then there is no result.
     bool divide(std::uint64_t max_triangles);
+    /// After `divide` was false: a tolerance within which faces were before there were too many, as
+    /// far as some of them tell, at least twice the own; 0 if none is known.
+    [[nodiscard]] double larger_tolerance() const;
+    /// The number of leaves of the solid, or gaps that they leave, thinner than the tolerance and
+    /// with no face beside a point in them.
+    [[nodiscard]] std::size_t lost_parts() const;
 
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] Face face(const Edge& edge) const;
@@ -102,9 +108,10 @@ class SurfaceCells {
     void split_part(const Box3& part, double most);
     /// Divides cells that hide a part of the solid, or a gap in it: lines along the axes of a part
     /// of the surface are as far apart as its least side, or about `most` along each axis.
-    void start_part(const IsolatedSolid::SurfacePart& part, double most);
-    /// Divides the cell at a point until its corners are on the same side of the surface.
-    void start_at(const Vec3& p);
+    void start_part(const IsolatedSolid::SurfacePart& part, std::size_t number, double most);
+    /// Divides the cell at a point until its corners are on the same side of the surface. False,
+    /// without a division, if the surface is within half the tolerance.
+    bool start_at(const Vec3& p);
     /// Lets the largest of the cells around an edge be divided, unless they are the smallest.
     void ask(const CellTree::Edge& edge);
     void ask(std::uint32_t cell);
@@ -123,8 +130,9 @@ class SurfaceCells {
     // ---- Edges.
     /// Removes the edges of cells that were divided.
     void drop_edges();
-    /// Adds the edges of new cells that the surface crosses.
-    void find_edges();
+    /// Adds the edges of new cells that the surface crosses; no more once there are more triangles
+    /// than given.
+    void find_edges(std::uint64_t max_triangles);
     Crossing find_crossing(const CellTree::Edge& edge, bool starts_in);
 
     // ---- Vertices, of cells whose crossings have changed.
@@ -138,7 +146,12 @@ class SurfaceCells {
     [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
     /// Asks for a division of cells whose faces are not near the surface.
     void test_faces();
-    bool is_face_near(const Face& face);
+    bool is_face_near(const Edge& edge, const Face& face);
+    /// False if a triangle of a face is turned over: it faces away from the surface at the edge and
+    /// at its corners, and from the surface near its middle.
+    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells);
+    /// Largest distance of corners and middles of a face from the surface.
+    double distance_of(const Face& face);
     /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
     /// between two cells in one of the triangles beside it.
     bool is_near(const std::array<std::uint32_t, 3>& cells);
@@ -150,6 +163,8 @@ class SurfaceCells {
     void find_parts();
     /// The leaf that a point is in.
     [[nodiscard]] std::uint32_t leaf_at(const Vec3& p) const;
+    /// True if a cell of a tree that overlaps a box has a vertex.
+    [[nodiscard]] bool any_vertex(std::uint32_t cell, const Box3& box) const;
 
     SurfaceLine line_;
     double cell_, unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
@@ -164,7 +179,13 @@ class SurfaceCells {
     std::vector<std::uint32_t> asked_;                 ///< cells to divide
     std::vector<Part> parts_;                          ///< of lines, to be found in the cells
     bool has_parts_ = false;
-    std::vector<Crossing> crossings_;  ///< of one cell
+    struct ThinPoint {
+        Vec3 point;
+        std::size_t part;  ///< of `surface_parts`
+    };
+    std::vector<ThinPoint> thin_points_;  ///< where `start_at` was false, part by part
+    std::vector<double> distances_;       ///< of some faces of the last test that are not near
+    std::vector<Crossing> crossings_;     ///< of one cell
     /// Of lines along each axis, the range of `ends_`.
     std::array<std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>>, 3> lines_;
     std::vector<double> ends_;

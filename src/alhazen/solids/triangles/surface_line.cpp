@@ -1,12 +1,26 @@
 #include "alhazen/solids/triangles/surface_line.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
+
+namespace {
+
+const double kDiagonal = std::sqrt(1.0 / 3.0);
+const std::array<Vec3, 7> kDirections{{{1, 0, 0},
+                                       {0, 1, 0},
+                                       {0, 0, 1},
+                                       {kDiagonal, kDiagonal, kDiagonal},
+                                       {-kDiagonal, kDiagonal, kDiagonal},
+                                       {kDiagonal, -kDiagonal, kDiagonal},
+                                       {kDiagonal, kDiagonal, -kDiagonal}}};
+
+}  // namespace
 
 const std::vector<SurfaceLine::SurfacePoint>& SurfaceLine::cross(const Vec3& from,
                                                                  const Vec3& along, double t_min,
@@ -45,6 +59,14 @@ bool SurfaceLine::inside(const Vec3& p) {
 
 double SurfaceLine::distance(const Vec3& from, const Vec3& along, double limit) {
     double nearest = kInfinity;
+    hits_.clear();
+    solid_.hits({from, along, -limit, limit}, hits_);
+    // Normals tell walls from surfaces; a wall is two hits at one place.
+    const auto at_one = [](const Hit& a, const Hit& b) { return a.t == b.t; };
+    if (std::adjacent_find(hits_.begin(), hits_.end(), at_one) == hits_.end()) {
+        for (const Hit& hit : hits_) nearest = std::min(nearest, std::abs(hit.t));
+        return nearest;
+    }
     for (const SurfacePoint& p : cross(from, along, -limit, limit)) {
         nearest = std::min(nearest, std::abs(p.t));
     }
@@ -53,12 +75,18 @@ double SurfaceLine::distance(const Vec3& from, const Vec3& along, double limit) 
 
 bool SurfaceLine::is_near(const Vec3& p, const Vec3& face, double limit) {
     if (distance(p, face, limit) <= limit) return true;
-    const double c = std::sqrt(1.0 / 3.0);
-    for (const Vec3& along : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{c, c, c},
-                              Vec3{-c, c, c}, Vec3{c, -c, c}, Vec3{c, c, -c}}) {
-        if (distance(p, along, limit) <= limit) return true;
-    }
-    return false;
+    return std::any_of(kDirections.begin(), kDirections.end(),
+                       [&](const Vec3& along) { return distance(p, along, limit) <= limit; });
+}
+
+bool SurfaceLine::faces(const Vec3& p, const Vec3& face, double limit) {
+    const auto meets = [&](const Vec3& along) {
+        const std::vector<SurfacePoint>& all = cross(p, along, -limit, limit);
+        return std::any_of(all.begin(), all.end(), [&](const SurfacePoint& point) {
+            return dot(point.normal, face) > 0.0;
+        });
+    };
+    return meets(face) || std::any_of(kDirections.begin(), kDirections.end(), meets);
 }
 
 bool SurfaceLine::is_thin(const Vec3& from, const Vec3& along, const Interval& part, double limit) {

@@ -32,6 +32,9 @@ class SurfaceLine {
     /// True if the surface is within `limit` of a point along the unit vector `face` or one of
     /// seven others: near an edge the normal may miss the surface.
     bool is_near(const Vec3& p, const Vec3& face, double limit);
+    /// True if the surface, seen from the side that the unit vector `face` points to, is within
+    /// `limit` of a point along one of these vectors.
+    bool faces(const Vec3& p, const Vec3& face, double limit);
     /// True if the surface is within `limit` of the middle of a part of a line, along a unit
     /// vector.
     bool is_thin(const Vec3& from, const Vec3& along, const Interval& part, double limit);
