@@ -16,14 +16,14 @@ struct Argument {
 };
 
 constexpr std::array<Argument, 9> kArguments = {{{"--antialias", "antialias"},
-                                                  {"--aov", "layers"},
-                                                  {"--environment", "environment"},
-                                                  {"--filter", "filter"},
-                                                  {"--noise", "noise"},
-                                                  {"--sampler", "sampler"},
-                                                  {"--spp", "spp"},
-                                                  {"--time-limit", "time_limit"},
-                                                  {"--view", "view"}}};
+                                                 {"--aov", "layers"},
+                                                 {"--environment", "environment"},
+                                                 {"--filter", "filter"},
+                                                 {"--noise", "noise"},
+                                                 {"--sampler", "sampler"},
+                                                 {"--spp", "spp"},
+                                                 {"--time-limit", "time_limit"},
+                                                 {"--view", "view"}}};
 
 bool is_of_word(char c) {
     return c == '-' || (c >= 'a' && c <= 'z');
