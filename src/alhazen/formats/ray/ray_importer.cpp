@@ -68,7 +68,7 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     scene.format = name();
     scene.path = source.path;
     scene.objects.push_back({"scene", {}, {source.path.string(), 1, 1}});
-    if (report_utf16(source.bytes, source.path.string(), diagnostics)) return scene;
+    if (report_wide_text(source.bytes, source.path.string(), diagnostics)) return scene;
     if (!starts_with_header(source.bytes)) {
         diagnostics.error({source.path.string(), 1, 1},
                           "not an SBT-raytracer scene: it must begin with 'SBT-raytracer 1.0' "

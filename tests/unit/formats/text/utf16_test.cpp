@@ -1,4 +1,4 @@
-/// Every reader of a text format says of UTF-16 text what it is.
+/// Every reader of a text format says of UTF-16 and UTF-32 text what it is.
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,16 @@ std::string utf16(std::string_view text, bool big_endian = false) {
     for (const char c : text) {
         bytes += big_endian ? '\0' : c;
         bytes += big_endian ? c : '\0';
+    }
+    return bytes;
+}
+
+/// ASCII in units of `width` bytes, without a mark.
+std::string wide(std::string_view text, std::size_t width, bool big_endian) {
+    std::string bytes;
+    for (const char c : text) {
+        const std::string zeros(width - 1, '\0');
+        bytes += big_endian ? zeros + c : c + zeros;
     }
     return bytes;
 }
@@ -42,6 +52,33 @@ TEST(Utf16, IsToldOfInScenesOfEveryTextFormat) {
             const std::string said = findings_of(path);
             EXPECT_TRUE(said.starts_with(path.string() + ":1:1: ")) << said;
             EXPECT_TRUE(said.ends_with(kFound)) << said;
+        }
+    }
+}
+
+TEST(Utf16, IsToldOfWithoutAMarkAndAsUtf32) {
+    using namespace std::string_view_literals;
+    const TemporaryFolder folder;
+    for (const char* suffix : {"alhazen", "ray", "nff", "aff", "gltf", "obj", "ply", "stl", "asc",
+                               "bpt", "rib", "txt"}) {
+        for (const bool big_endian : {false, true}) {
+            for (const std::size_t width : {2, 4}) {
+                for (const bool marked : {false, true}) {
+                    if (marked && width == 2) continue;
+                    const std::string_view mark = !marked      ? ""sv
+                                                  : big_endian ? "\0\0\xFE\xFF"sv
+                                                               : "\xFF\xFE\0\0"sv;
+                    const auto path = folder.write(
+                        std::string("a.") + suffix,
+                        std::string(mark) + wide("ply\nformat ascii", width, big_endian));
+                    const std::string said = findings_of(path);
+                    EXPECT_TRUE(said.starts_with(path.string() + ":1:1: ")) << said;
+                    EXPECT_TRUE(said.ends_with(
+                        width == 2 ? "the file is UTF-16 text; expected ASCII or UTF-8"
+                                   : "the file is UTF-32 text; expected ASCII or UTF-8"))
+                        << said;
+                }
+            }
         }
     }
 }
