@@ -50,6 +50,11 @@ void read_items(TextNode root, RayContext& context) {
             objects.read(item, material);
         }
     }
+    if (context.camera.without_axes) {
+        context.diagnostics.error(
+            *context.camera.without_axes,
+            "camera: look_at must not lie at the position, nor along updir from it");
+    }
 }
 
 }  // namespace
