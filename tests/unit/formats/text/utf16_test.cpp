@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/shading/lights/ies_profile.h"
 #include "unit/formats/import_text.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -109,6 +110,29 @@ TEST(Utf16, IsToldOfInFilesThatScenesName) {
     const auto script = folder.path() / "view.txt";
     EXPECT_EQ(findings_of(database, {.view_script = script}),
               script.string() + ":1:1: " + std::string(kFound));
+}
+
+TEST(Utf16, TheMarkOfUtf8IsNoPartOfScriptsAndProfiles) {
+    const std::string mark = "\xEF\xBB\xBF";
+    const TemporaryFolder folder;
+    const auto database =
+        folder.write("b.asc",
+                     "title {a}\nunits mm\nput b.s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+                     "put b.r comb region yes tree {l b.s}\n");
+    const std::string view = "viewsize 1; eye_pt 0 3 4; lookat_pt 0 0 0; start 0; end;";
+    const auto eye = [&](const std::string& text) {
+        Diagnostics found;
+        const SceneDescription scene =
+            import_scene(database, {.view_script = folder.write("view.rt", text)}, found);
+        EXPECT_EQ(testing::text_of(found), "");
+        return std::get<OrthographicCamera>(scene.cameras.at(0).camera).up;
+    };
+    EXPECT_EQ(eye(mark + view), eye(view));
+    // The factor 0.25 counts in files of before 1995, which have no such first line.
+    const std::string ies =
+        "IESNA:LM-63-1995\n[TEST] x\nTILT=NONE\n1 1 1 2 1 1 2 0 0 0\n0.5 0.25 100\n0 90\n0\n80 "
+        "80\n";
+    EXPECT_EQ(IesProfile(mark + ies, "a.ies").candela(0, 0), 40.0);
 }
 
 /// A requirement of YAML 1.1 (5.2).
