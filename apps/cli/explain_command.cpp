@@ -78,9 +78,9 @@ int run_explain(ExplainArguments& args) {
                  json ? explanation_json(explanation, 2) + "\n" : explanation_page(explanation));
     if (!args.quiet && args.output != "-") {
         const RayCensus census = census_of(explanation.tree);
-        tell("{}: pixel {},{} of {}x{}, {} rays\n", args.output, explanation.x, explanation.y,
+        tell("{}: pixel {},{} of {}x{}, {}\n", args.output, explanation.x, explanation.y,
              explanation.width, explanation.height,
-             census.eye + census.shadow + census.reflection + census.refraction);
+             counted(census.eye + census.shadow + census.reflection + census.refraction, "ray"));
     }
     return kDone;
 }

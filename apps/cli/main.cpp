@@ -70,11 +70,15 @@ void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
 }
 
 /// The arguments, the last one first, without the name of the program. `help COMMAND` stands for
-/// `COMMAND --help`, `help help` for `help`.
+/// `COMMAND --help`, `help help` for `help`. Throws Error (Usage) for `help` of several commands.
 std::vector<std::string> arguments_from_last(int argc, char** argv) {
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     if (!arguments.empty() && arguments.front() == "help") {
         const bool of_itself = arguments.size() > 1 && arguments[1] == "help";
+        const auto is_topic = [](const std::string& text) { return !text.starts_with('-'); };
+        if (std::count_if(arguments.begin() + 1, arguments.end(), is_topic) > 1) {
+            throw Error(ErrorKind::Usage, "help: expected one command");
+        }
         arguments.erase(arguments.begin(), arguments.begin() + (of_itself ? 2 : 1));
         arguments.emplace_back("--help");
     }
@@ -82,9 +86,22 @@ std::vector<std::string> arguments_from_last(int argc, char** argv) {
     return arguments;
 }
 
-/// The message for a wrong command line. That of CLI11 for a repeated option counts values.
+/// The message for a wrong command line. That of CLI11 for a repeated option counts values, and
+/// that for a value of another kind does not say of which.
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
     std::string text = CLI::FailureMessage::simple(app, error);
+    constexpr std::string_view kOther = "Could not convert: ";
+    if (text.starts_with(kOther)) {
+        const std::size_t value = text.find(" = ");
+        const std::size_t end = text.find('\n');
+        if (value < end) {
+            const std::string option = text.substr(kOther.size(), value - kOther.size());
+            text.replace(0, end,
+                         fmt::format("{}: expected a number of its kind (see --help), not {}",
+                                     option, text.substr(value + 3, end - value - 3)));
+        }
+        return text;
+    }
     const std::size_t begin = text.find(": At Most 1 required but received ");
     if (begin == std::string::npos) return text;
     return text.replace(begin, text.find('\n', begin) - begin, ": was given more than once");

@@ -5,6 +5,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
 #include "alhazen/base/stopwatch.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/scene_files.h"
@@ -190,6 +191,7 @@ void add_measure(CLI::App& app, int& exit_status) {
     args->scene.add_to(*command, kDefaultAccelerator);
     add_measure_options(*command, *args);
     command->callback([args, &exit_status] {
+        if (!args->json.empty() && args->json != "-") check_writable(args->json);
         const LoadedScene loaded = load(args->scene.scene, args->scene.load_options());
         if (!args->json.empty() && args->json != "-") {
             const std::filesystem::path output = args->json;

@@ -328,7 +328,9 @@ bool AcceleratorArguments::names_accelerator() const {
 
 BuildOptions AcceleratorArguments::build_options() const {
     BuildOptions options;
-    if (!chooses_build()) options.quality = find_build_quality(build_quality);
+    if (!chooses_build()) {
+        options.quality = find_build_quality(build_quality, takes_auto_build ? "auto" : "");
+    }
     check_node_width(width);
     options.width = width;
     if (compact) options.leaves = Leaves::Indices;
@@ -379,6 +381,19 @@ LoadOptions SceneArguments::load_options() const {
     LoadOptions options = ReadArguments::load_options();
     options.compile = compile_options();
     return options;
+}
+
+void SceneArguments::tell_idle_accelerator(const std::string& user, bool quiet) const {
+    if (!names_accelerator()) return;
+    tell_idle_options(user +
+                          " has no accelerator: --accelerator, --bound, --build, --width and "
+                          "--compact have no effect",
+                      strict, quiet);
+}
+
+void tell_idle_options(const std::string& what, bool strict, bool quiet) {
+    if (strict) throw Error(ErrorKind::Usage, what);
+    if (!quiet) tell("warning: {}\n", what);
 }
 
 void print_warnings(const Diagnostics& diagnostics) {

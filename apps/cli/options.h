@@ -112,7 +112,12 @@ struct SceneArguments : ReadArguments, AcceleratorArguments {
     void add_to(CLI::App& command, const std::string& default_name);
     /// Throws Error (Usage) as its parts do.
     [[nodiscard]] LoadOptions load_options() const;
+    /// For `user`, which has no accelerator: tells that options of one have no effect.
+    void tell_idle_accelerator(const std::string& user, bool quiet) const;
 };
+
+/// Tells that options have no effect; an Error (Usage) with `strict`.
+void tell_idle_options(const std::string& what, bool strict, bool quiet);
 
 /// Prints warnings to stderr, one per line.
 void print_warnings(const Diagnostics& diagnostics);

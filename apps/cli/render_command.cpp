@@ -161,16 +161,14 @@ int run(const RenderArguments& args) {
             return quality_for_picture(loaded, options);
         };
     }
+    if (!needs_aggregate) {
+        args.scene.tell_idle_accelerator(fmt::format("renderer '{}'", options.renderer),
+                                         args.quiet);
+    }
     LoadedScene loaded = load(args.scene.scene, load_options);
     progress.finish();
     check_spares_scene(loaded.description, plan.outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
-    if (!needs_aggregate && args.scene.names_accelerator() && !args.quiet) {
-        tell(
-            "renderer '{}' has no accelerator: --accelerator, --bound, --build, --width and "
-            "--compact have no effect\n",
-            options.renderer);
-    }
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     ViewRequest wishes{.environment = args.environment,

@@ -4,6 +4,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
 #include "alhazen/session/sample_figure.h"
 #include "commands.h"
 #include "messages.h"
@@ -36,7 +37,13 @@ int run_samples(const SamplesArguments& args) {
     }
     SampleStudyOptions options = args.study;
     options.pair = static_cast<std::uint32_t>(args.dimension / 2);
-    if (!args.output.empty() && args.output != "-") check_writable(args.output);
+    if (!args.output.empty() && args.output != "-") {
+        if (lower_suffix(args.output) != ".svg") {
+            throw Error(ErrorKind::Usage,
+                        fmt::format("-o '{}': expected a file .svg", args.output));
+        }
+        check_writable(args.output);
+    }
     const SampleStudy study = study_sampler(*sampler, options);
     if (!args.output.empty()) write_report(args.output, sample_figure(study));
     if (args.output == "-") return kDone;

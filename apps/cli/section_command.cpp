@@ -222,6 +222,7 @@ void run_section(SectionArguments& args, int& exit_status) {
         if (!path.empty() && path != "-") outputs.emplace_back(path);
     }
     check_distinct(outputs);
+    for (const auto& path : outputs) check_writable(path);
     if (args.svg == "-" && args.json == "-") {
         throw Error(ErrorKind::Usage, "--svg and --json cannot both be written to stdout");
     }
@@ -255,6 +256,19 @@ void run_section(SectionArguments& args, int& exit_status) {
     exit_status = kDone;
 }
 
+/// Refuses options that have no effect.
+void check_effects(const CLI::App& command, const SectionArguments& args) {
+    const auto need = [&](const std::string& file, const char* of,
+                          std::initializer_list<const char*> options) {
+        for (const char* option : options) {
+            if (!file.empty() || command.count(option) == 0) continue;
+            throw Error(ErrorKind::Usage, fmt::format("{} needs {}", option, of));
+        }
+    };
+    need(args.output, "-o, the picture", {"--size", "--camera"});
+    need(args.svg, "--svg, the outlines", {"--unit", "--tolerance", "--grid"});
+}
+
 }  // namespace
 
 void add_section(CLI::App& app, int& exit_status) {
@@ -263,7 +277,10 @@ void add_section(CLI::App& app, int& exit_status) {
     const auto args = std::make_shared<SectionArguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
     add_section_options(*command, *args);
-    command->callback([args, &exit_status] { run_section(*args, exit_status); });
+    command->callback([args, command, &exit_status] {
+        check_effects(*command, *args);
+        run_section(*args, exit_status);
+    });
 }
 
 }  // namespace alhazen::cli

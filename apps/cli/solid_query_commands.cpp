@@ -1,5 +1,7 @@
 /// `spans`, `inside`, `thickness`: queries about the solids of a scene, one line of JSON each.
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -25,6 +27,7 @@ struct SolidQueryArguments {
     SceneArguments scene;
     std::vector<std::string> given;  ///< --ray or --point
     std::string file;                ///< --rays or --points
+    std::string one;                 ///< "ray" or "point"
     bool quiet = false;
 };
 
@@ -60,9 +63,9 @@ void for_each_batch(const SolidQueryArguments& args, const Parse& parse, const A
 template <class Work>
 void with_solids(const SolidQueryArguments& args, const Work& work) {
     if (args.given.empty() && args.file.empty()) {
-        throw Error(ErrorKind::Usage,
-                    "nothing is asked for: expected --ray, --rays, --point or "
-                    "--points (see --help)");
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("nothing is asked for: expected --{0} or --{0}s (see --help)", args.one));
     }
     const LoadedScene loaded = load(args.scene.scene, args.scene.load_options());
     if (!args.quiet) print_warnings(loaded.diagnostics);
@@ -83,6 +86,7 @@ void with_solids(const SolidQueryArguments& args, const Work& work) {
 std::shared_ptr<SolidQueryArguments> add_arguments(CLI::App& command, const char* one,
                                                    const char* what, const char* numbers) {
     auto args = std::make_shared<SolidQueryArguments>();
+    args->one = one;
     args->scene.add_to(command, kDefaultAccelerator);
     command
         .add_option(std::string("--") + one, args->given,

@@ -69,6 +69,12 @@ int run_vector(const VectorArguments& args) {
     const DrawingLook look = look_named(args.style);
     const WriteDrawing write = writer_for(args.output);
     const bool hidden = shows_hidden(args);
+    const bool exact = look == DrawingLook::Technical && (hidden || args.tolerance > 0);
+    if (exact && args.depth >= 0) {
+        throw Error(ErrorKind::Usage,
+                    "--depth is for drawings with mirror images: with --style technical and "
+                    "--hidden dashed or --tolerance there are none");
+    }
     RenderOptions options;
     if (!args.size.empty()) {
         const Size size = parse_size(args.size);
@@ -83,15 +89,14 @@ int run_vector(const VectorArguments& args) {
     check_one_view(args.view, args.camera);
     check_writable(args.output);
     LoadOptions load_options = args.scene.load_options();
-    load_options.with_aggregate = false;
+    load_options.with_aggregate = exact;
+    if (!exact) args.scene.tell_idle_accelerator("a drawing of planar facets", args.quiet);
     LoadedScene loaded = load(args.scene.scene, load_options);
     const std::filesystem::path outputs[] = {args.output};
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
-    const bool exact = look == DrawingLook::Technical && (hidden || args.tolerance > 0);
     // Framing reads the tables of the aggregate.
-    if (exact || !args.view.empty() || loaded.scene.cameras.empty())
-        build_aggregate(loaded, load_options);
+    if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     framing.camera = options.camera;
     framing.aspect = free_aspect(loaded.description.picture, options);
     for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {

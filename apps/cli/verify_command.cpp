@@ -7,6 +7,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/control_characters.h"
+#include "alhazen/base/file.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/scene_files.h"
@@ -200,6 +201,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     add_quiet(*command, args->quiet);
     command->callback([args, &exit_status] {
         Diagnostics diagnostics;
+        if (!args->json.empty() && args->json != "-") check_writable(args->json);
         const SceneDescription description =
             load_description(args->scene.scene, args->scene.load_options(), diagnostics);
         if (!args->json.empty() && args->json != "-") {
@@ -207,6 +209,10 @@ void add_verify(CLI::App& app, int& exit_status) {
             check_spares_scene(description, std::span(&output, 1));
         }
         if (!args->quiet) print_warnings(diagnostics);
+        if (args->scene.accelerator != "all") {
+            const std::string idle = idle_build_options(description, args->scene.compile_options());
+            if (!idle.empty()) tell_idle_options(idle, args->scene.strict, args->quiet);
+        }
         ProgressDisplay progress(args->quiet);
         json reports = json::array();
         bool holds = true;

@@ -103,7 +103,12 @@ void add_view(CLI::App& app, int& exit_status) {
     command->add_flag("--allow-remote", args->allow_remote,
                       "Allow an address that other machines reach; the way is not encrypted");
     command->add_flag("--no-open", args->no_open, "Only print the address of the page");
-    command->callback([args, &exit_status] { exit_status = run_view(*args); });
+    command->callback([args, command, &exit_status] {
+        if (args->allow_remote && command->count("--serve") == 0) {
+            throw Error(ErrorKind::Usage, "--allow-remote needs --serve");
+        }
+        exit_status = run_view(*args);
+    });
 }
 
 }  // namespace alhazen::cli

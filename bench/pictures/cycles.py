@@ -10,9 +10,15 @@ import json
 import os
 import sys
 
-import bpy
-import mathutils
-import numpy
+if "--help" in sys.argv:
+    print(__doc__)
+    sys.exit()
+try:
+    import bpy
+    import mathutils
+    import numpy
+except ModuleNotFoundError as error:
+    sys.exit(f"{error}: this runs within Blender\n{__doc__}")
 
 
 def material_of(name, given):

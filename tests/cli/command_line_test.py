@@ -92,6 +92,80 @@ class CommandLine(CommandLineCase):
             self.assertNotIn("no accelerator", run(*start, *options, "-q").stderr)
         self.assertNotIn("no accelerator", run(*start).stderr)
 
+    def test_options_without_effect_are_told_by_all_commands_and_refused_with_strict(self):
+        flat = self.write("flat.alhazen", "alhazen 1\nperspective_camera { eye = (0, 0, 5); look_at = (0, 0, 0) }\n"
+                                          "rectangle { corner = (0, 0, 0); edge_u = (1, 0, 0); edge_v = (0, 1, 0) }\n")
+        small = ["--accelerator", "octree", "--compact"]
+        idle = "accelerator 'octree' is built without --build, --width and --compact"
+        vector = ["vector", flat, "-o", self.path("out.svg")]
+        technical = [*vector, "--style", "technical", "--hidden", "dashed"]
+        for command, message in (["verify", flat, "--rays", "100"], idle), (technical, idle), \
+                (vector, "has no accelerator"), (["spans", flat, "--ray", "0,0,1,0,0,-1"], idle), \
+                (["render", flat, "-o", self.path("out.png"), "--size", "4x4"], idle):
+            result = run(*command, *small)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.stderr.count("warning: " + message if message == idle else message), 1, result.stderr)
+            self.assertNotIn(message, run(*command, *small, "-q").stderr)
+            self.assertNotIn(message, run(*command).stderr)
+            strict = run(*command, *small, "--strict")
+            self.assertEqual(strict.returncode, 2, strict.stderr)
+            self.assertIn("alhazen: ", strict.stderr)
+            self.assertIn(message, strict.stderr)
+        self.assertNotIn("--compact", run("verify", flat, "--rays", "100", "--compact").stderr)
+        both = self.render("--accelerator", "light_buffer:density=4,resolution=8")
+        self.assertEqual(both.returncode, 2)
+        self.assertIn("accelerator 'light_buffer': density has no effect beside resolution", both.stderr)
+        self.assertEqual(self.render("--accelerator", "light_buffer:density=4,resolution=0").returncode, 0)
+        grid = self.render("--accelerator", "uniform_grid:density=4,nx=2,ny=2,nz=2")
+        self.assertIn("accelerator 'uniform_grid': density has no effect beside nx, ny and nz", grid.stderr)
+        self.assertEqual(self.render("--accelerator", "uniform_grid:density=4,nx=2,ny=2").returncode, 0)
+
+    def test_options_for_files_that_are_not_written_are_refused(self):
+        section = ["section", self.scene, "--plane", "0,1,0,1"]
+        for options, message in (["--size", "9x9"], "--size needs -o"), (["--camera", "top"], "--camera needs -o"), \
+                (["--unit", "cm"], "--unit needs --svg"), (["--grid", "64"], "--grid needs --svg"), \
+                (["--tolerance", "1"], "--tolerance needs --svg"), (["--json", "/no/folder/a"], "cannot write /no/folder/a"):
+            result = run(*section, *options)
+            self.assertEqual(result.returncode, 4 if "cannot" in message else 2, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertEqual(result.stdout, "")
+        technical = run("vector", self.scene, "-o", self.path("out.svg"), "--style", "technical", "--tolerance", "1", "--depth", "1")
+        self.assertIn("--depth is for drawings with mirror images", technical.stderr)
+        self.assertIn("--allow-remote needs --serve", run("view", self.scene, "--no-open", "--allow-remote").stderr)
+        self.assertIn("expected a file .svg", run("samples", "sobol", "-o", self.path("out.png")).stderr)
+        for command in "verify", "measure":
+            result = run(command, self.scene, "--json", "/no/folder/a")
+            self.assertEqual(result.returncode, 4)
+            self.assertEqual(result.stdout, "")
+
+    def test_a_value_of_the_wrong_kind_is_told_with_its_option(self):
+        self.assertIn("--spp: expected a number of its kind (see --help), not x\n", self.render("--spp", "x").stderr)
+        self.assertIn("--seed: expected a number of its kind", run("verify", self.scene, "--seed", "1.5").stderr)
+        self.assertIn("expected --ray or --rays (see", run("spans", self.scene).stderr)
+        self.assertIn("expected --point or --points (see", run("inside", self.scene).stderr)
+
+    def test_files_of_points_may_begin_with_a_byte_order_mark(self):
+        points = self.path("points.txt")
+        with open(points, "wb") as file:
+            file.write(b"\xef\xbb\xbf0,1,0\r\n")
+        result = run("inside", self.scene, "--points", points, "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('"point":[0.0,1.0,0.0]', result.stdout)
+        for encoding in "utf-16", "utf-16-le", "utf-32":
+            with open(points, "wb") as file:
+                file.write("0,1,0\n".encode(encoding))
+            result = run("inside", self.scene, "--points", points, "-q")
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn(f"points.txt:1:1: the file is {encoding[:6].upper()} text; expected ASCII or UTF-8", result.stderr)
+
+    def test_help_is_of_one_command_and_lists_of_qualities_are_complete(self):
+        result = run("help", "render", "convert")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("help: expected one command", result.stderr)
+        self.assertEqual(run("help", "render").stdout, run("render", "--help").stdout)
+        self.assertIn("the valid names are: auto, fast, default, high", self.render("--build", "zz").stderr)
+        self.assertIn("the valid names are: fast, default, high", run("info", self.scene, "--build", "zz").stderr)
+
     def test_compare_keeps_what_it_has_measured(self):
         report = self.path("report.json")
         options = ["--accelerators", "kd_tree", "--no-tuning", "--size", "24x18", "--time-limit", "0.05", "-q"]

@@ -384,10 +384,11 @@ inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
     (void)a3, (void)b3;
     return all_same(a1, b1, a2, b2, a4, b4, a5, b5, a6, b6);
 }
+/// `of_polygon` is for messages.
 inline bool same(const MeshDescription& a, const MeshDescription& b) {
-    const auto& [a1, a2, a3, a4] = a;
-    const auto& [b1, b2, b3, b4] = b;
-    (void)a3, (void)b3;
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    (void)a3, (void)b3, (void)a5, (void)b5;
     return same(a1, b1) && same(*a2, *b2) && same(a4, b4);
 }
 inline bool same(const PictureSettings& a, const PictureSettings& b) {

@@ -47,7 +47,7 @@ const Importer& find_importer(const ImportSource& source) {
         }
     }
     if (best != nullptr) return *best;
-    refuse_utf16(source.bytes, source.path.string());
+    refuse_wide_text(source.bytes, source.path.string());
     std::string known;
     for (const Importer* importer : importers()) {
         known += known.empty() ? "" : ", ";

@@ -85,9 +85,39 @@ std::vector<std::uint8_t> closed_parts_of(const SceneDescription& description,
     return ClosedParts(description, materials, opaque_too).find();
 }
 
+/// See Scene::used_materials.
+static std::vector<std::uint8_t> used_materials_of(const SceneDescription& description) {
+    std::vector<std::uint8_t> used(description.materials.size());
+    std::vector<bool> reached(description.objects.size());
+    std::vector<std::size_t> open{static_cast<std::size_t>(description.root)};
+    while (!open.empty()) {
+        const std::size_t object = open.back();
+        open.pop_back();
+        if (object >= reached.size() || reached[object]) continue;
+        reached[object] = true;
+        for (const Part& part : description.objects[object].parts) {
+            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                open.push_back(static_cast<std::size_t>(*child));
+                continue;
+            }
+            const auto* index = std::get_if<MeshIndex>(&part.what);
+            const TriangleMesh* const mesh =
+                index == nullptr ? nullptr
+                                 : description.meshes[static_cast<std::size_t>(*index)].mesh.get();
+            if (mesh == nullptr || mesh->vertex_materials.empty()) {
+                used[static_cast<std::size_t>(part.material)] = 1;
+            } else {
+                for (const std::uint32_t id : mesh->vertex_materials) used[id] = 1;
+            }
+        }
+    }
+    return used;
+}
+
 Scene compile_without_geometry(const SceneDescription& description) {
     Scene scene;
     compile_materials(description, scene);
+    scene.used_materials = used_materials_of(description);
     scene.all_opaque =
         std::all_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });

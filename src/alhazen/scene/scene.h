@@ -48,6 +48,8 @@ struct WallMaterial {
 struct Scene {
     std::shared_ptr<const Aggregate> aggregate;  ///< null until it is built
     std::vector<Material> materials;
+    /// [material] 1: some part below the root has it, seen or not; empty: unknown.
+    std::vector<std::uint8_t> used_materials;
     std::vector<WallMaterial> walls;  ///< those with a Surface::volume
     std::vector<Texture> textures;
     std::vector<Light> lights;
@@ -88,6 +90,18 @@ struct Scene {
             }
         }
         return materials[static_cast<std::size_t>(own)];
+    }
+    [[nodiscard]] bool is_used(std::size_t material) const {
+        return used_materials.empty() || used_materials[material] != 0;
+    }
+    /// The number of used materials for which `has` is true.
+    template <class Property>
+    [[nodiscard]] std::size_t count_used(const Property& has) const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            if (is_used(i) && has(materials[i])) ++count;
+        }
+        return count;
     }
     /// True if a shadow ray that meets any surface is blocked.
     [[nodiscard]] bool all_block_light() const {

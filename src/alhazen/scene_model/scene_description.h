@@ -81,6 +81,7 @@ struct MeshDescription {
     FileLocation location;
     /// Positions of moving vertices; `mesh` is the state as the shutter opens. Empty: static.
     std::vector<MeshKey> keys;
+    bool of_polygon = false;  ///< the triangles of a polygon whose corners are not in a plane
 };
 
 struct TextureDescription {

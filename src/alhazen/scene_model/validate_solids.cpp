@@ -112,6 +112,11 @@ class SolidValidator {
         } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
             const auto i = static_cast<std::size_t>(*mesh);
             if (i >= d_.meshes.size() || !d_.meshes[i].mesh || is_closed(i)) return;
+            if (d_.meshes[i].of_polygon) {
+                return error(part.location,
+                             fmt::format("{} bounds no volume, so it cannot be part of a solid",
+                                         Polygon::kName));
+            }
             error(
                 part.location,
                 fmt::format("{} is not closed, so it cannot be part of a solid: each edge must "
@@ -188,7 +193,9 @@ void validate_solids(const SceneDescription& description, Diagnostics& diagnosti
 }
 
 std::string in_words(const MeshDescription& mesh) {
-    return mesh.name.empty() ? "a mesh without a name" : fmt::format("mesh '{}'", mesh.name);
+    const char* const kind = mesh.of_polygon ? "polygon" : "mesh";
+    return mesh.name.empty() ? fmt::format("a {} without a name", kind)
+                             : fmt::format("{} '{}'", kind, mesh.name);
 }
 
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/accel/core/accelerator_settings.h"
+#include "alhazen/base/error.h"
 #include "alhazen/base/stopwatch.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
@@ -45,33 +46,12 @@ void run_build_phase(LoadedScene& loaded, const LoadOptions& options, Work&& wor
     report_phase(options, "build", 1);
 }
 
-/// Warns of options of the wide BVH for a scene that has none.
-void warn_of_build_options(LoadedScene& loaded, const CompileOptions& compile) {
-    const BuildOptions& build = compile.build;
-    const BuildOptions usual;
-    if (build.quality == usual.quality && build.leaves == usual.leaves &&
-        build.width == usual.width) {
-        return;
-    }
-    const auto is_wide = [](const std::string& accelerator) {
-        return parse_accelerator(accelerator).name == kDefaultAccelerator;
-    };
-    const std::vector<ObjectDescription>& objects = loaded.description.objects;
-    if (is_wide(compile.accelerator) ||
-        std::any_of(objects.begin(), objects.end(), [&](const ObjectDescription& object) {
-            return !object.accelerator.empty() && is_wide(object.accelerator);
-        })) {
-        return;
-    }
-    loaded.diagnostics.warning(
-        {}, fmt::format("accelerator '{}' is built without --build, --width and --compact: they "
-                        "are for '{}'",
-                        parse_accelerator(compile.accelerator).name, kDefaultAccelerator));
-}
-
 void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
     CompileOptions compile = options.compile;
-    warn_of_build_options(loaded, compile);
+    if (const std::string idle = idle_build_options(loaded.description, compile); !idle.empty()) {
+        if (options.strict) throw Error(ErrorKind::Usage, idle);
+        loaded.diagnostics.warning({}, idle);
+    }
     if (options.choose_quality) compile.build.quality = options.choose_quality(loaded);
     loaded.quality = compile.build.quality;
     if (options.keep_meshes) {
@@ -82,6 +62,27 @@ void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
 }
 
 }  // namespace
+
+std::string idle_build_options(const SceneDescription& description, const CompileOptions& compile) {
+    const BuildOptions& build = compile.build;
+    const BuildOptions usual;
+    if (build.quality == usual.quality && build.leaves == usual.leaves &&
+        build.width == usual.width) {
+        return {};
+    }
+    const auto is_wide = [](const std::string& accelerator) {
+        return parse_accelerator(accelerator).name == kDefaultAccelerator;
+    };
+    if (is_wide(compile.accelerator) ||
+        std::ranges::any_of(description.objects, [&](const ObjectDescription& object) {
+            return !object.accelerator.empty() && is_wide(object.accelerator);
+        })) {
+        return {};
+    }
+    return fmt::format(
+        "accelerator '{}' is built without --build, --width and --compact: they are for '{}'",
+        parse_accelerator(compile.accelerator).name, kDefaultAccelerator);
+}
 
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
@@ -127,6 +128,7 @@ LoadedScene load(SceneDescription description, Diagnostics diagnostics,
     run_build_phase(loaded, options, [&] {
         loaded.scene = compile_without_geometry(loaded.description);
         warn_of_bad_texels(loaded);
+        if (options.strict) loaded.diagnostics.throw_if_warnings();
         if (options.with_aggregate) add_aggregate(loaded, options);
     });
     return loaded;

@@ -19,7 +19,8 @@ struct LoadOptions {
     CompileOptions compile;
     std::optional<Shutter> shutter;  ///< replaces that of the file
     int threads = 0;                 ///< for the build; 0 = all available cores
-    /// True: warnings are errors: a scene that cannot be read completely and literally is refused.
+    /// True: warnings are errors: a scene that cannot be read completely and literally is refused,
+    /// and so are options of the build without effect.
     bool strict = false;
     /// False: meshes that are placed once may be moved into the scene and are then null in the
     /// description.
@@ -41,6 +42,10 @@ struct LoadedScene {
     double build_seconds = 0;
     BuildQuality quality = BuildQuality::Default;  ///< of the aggregate
 };
+
+/// Says that options of the wide BVH have no effect on a scene, because it has none; else empty.
+[[nodiscard]] std::string idle_build_options(const SceneDescription& description,
+                                             const CompileOptions& compile);
 
 /// Reads and validates a scene file without building anything. Throws Error.
 [[nodiscard]] SceneDescription load_description(const std::filesystem::path& path,

@@ -62,8 +62,9 @@ std::string renderers_where(bool (Renderer::*has)() const) {
 /// Throws if a physically based renderer would ignore scattering in volumes.
 void check_scattering(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     if (!renderer.follows_light() || renderer.scatters_in_volumes()) return;
-    for (const Material& material : scene.materials) {
-        if (material.scattering.coefficient.is_black()) continue;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (!scene.is_used(i) || material.scattering.coefficient.is_black()) continue;
         throw Error(ErrorKind::Usage,
                     fmt::format("material '{}' scatters light inside of volumes, which is for {}; "
                                 "renderer '{}' scatters at surfaces only",
@@ -300,16 +301,18 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         options.renderer));
     }
     const auto scatters = [](const Material& m) { return !m.scattering.coefficient.is_black(); };
-    if (!renderer.follows_light() &&
-        std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
+    if (!renderer.follows_light() && scene.count_used(scatters) > 0) {
         notes.push_back(
             fmt::format("renderer '{}' does not support scattering media; supported by: {}",
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
+    const int depth = options.max_depth.value_or(scene.conventions.shading.max_depth);
+    const bool shows_none_sharp =
+        renderer.lights_have_extent() || !renderer.reflects() || depth == 0;
     const auto tell_rough = [&](const char* what, bool (*is_rough)(const Material&)) {
-        const auto rough = std::ranges::count_if(scene.materials, is_rough);
-        if (rough == 0 || renderer.lights_have_extent()) return;
+        const std::size_t rough = shows_none_sharp ? 0 : scene.count_used(is_rough);
+        if (rough == 0) return;
         notes.push_back(
             fmt::format("renderer '{}' does not blur {} rough surfaces ({} material{}); "
                         "'distributed', 'cone_tracing' and the renderers of light transport do",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/unicode_marks.h"
 #include "alhazen/geometry/ray_scale.h"
 #include "alhazen/solids/vector_json.h"
 
@@ -140,7 +141,10 @@ std::vector<LineReader::Line> LineReader::next(std::size_t count) {
     std::vector<Line> lines;
     std::string text;
     while (lines.size() < count && std::getline(in_, text)) {
-        ++line_;
+        if (++line_ == 1) {
+            refuse_wide_text(text, name_);
+            text.erase(0, text.size() - without_byte_order_mark(text).size());
+        }
         if (const std::size_t comment = text.find('#'); comment != std::string::npos) {
             text.resize(comment);
         }

@@ -31,7 +31,8 @@ namespace alhazen {
 /// Parses "x,y,z". Throws Error (Usage).
 [[nodiscard]] Vec3 parse_point(const std::string& text, const FileLocation& where = {});
 
-/// Reads the lines of a text file in batches, without empty lines and comments after '#'.
+/// Reads the lines of a text file in batches, without empty lines and comments after '#'. A byte
+/// order mark of UTF-8 is skipped; other encodings of Unicode are an Error (Scene).
 class LineReader {
   public:
     struct Line {

@@ -406,6 +406,33 @@ TEST(Simplified, CountsRoughDielectricsAndCoefficients) {
     EXPECT_TRUE(notes(coefficients).empty());
 }
 
+TEST(Simplified, CountsOnlyMaterialsThatPartsHaveAndRenderersThatShowThem) {
+    SceneMaker maker;
+    Material rough;
+    rough.reflective.color = {0.5, 0.5, 0.5};
+    rough.roughness.value = 0.2;
+    const MaterialId seen = maker.material(rough);
+    (void)maker.material(rough);
+    Material foggy;
+    foggy.scattering.coefficient = {1, 1, 1};
+    (void)maker.material(foggy);
+    maker.add(Sphere{}, seen);
+    const Scene scene = maker.compile();
+    EXPECT_EQ(scene.used_materials[static_cast<std::size_t>(seen)], 1);
+    const auto notes = [&](const char* renderer, RenderOptions options = {}) {
+        options.renderer = renderer;
+        return simplified(scene, options, *make_renderer(renderer));
+    };
+    ASSERT_EQ(notes("whitted").size(), 1u);
+    EXPECT_NE(notes("whitted")[0].find("rough surfaces (1 material)"), std::string::npos);
+    for (const char* name : {"ray_casting", "lane_carpenter", "clark"}) {
+        EXPECT_TRUE(notes(name).empty()) << name;
+    }
+    RenderOptions flat;
+    flat.max_depth = 0;
+    EXPECT_TRUE(notes("whitted", flat).empty());
+}
+
 TEST(Simplified, MotionIsLeftOutWithoutAnAggregateToo) {
     const testing::ScratchFolder folder;
     const auto path = folder.write("moving.alhazen", std::string(R"(alhazen 1

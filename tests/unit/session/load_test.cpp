@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/session/statistics.h"
 #include "support/scratch_folder.h"
 #include "support/test_data.h"
@@ -95,7 +97,31 @@ TEST(Load, StrictTurnsWarningsIntoErrors) {
         EXPECT_NE(std::string(error.what()).find("load_strict.obj:1: error: "), std::string::npos)
             << error.what();
     }
-    EXPECT_NO_THROW((void)load(testing::source_folder() / "scenes/one_plane.alhazen", options));
+    const auto plane = testing::source_folder() / "scenes/one_plane.alhazen";
+    EXPECT_NO_THROW((void)load(plane, options));
+    options.compile.accelerator = "list";
+    options.compile.build.width = 4;
+    try {
+        (void)load(plane, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Usage);
+        EXPECT_NE(std::string(error.what()).find("is built without --build"), std::string::npos);
+    }
+}
+
+TEST(Load, StrictRefusesBadTexels) {
+    const testing::ScratchFolder folder;
+    Image image(4, 2, 3);
+    image.pixel(1, 0)[0] = std::numeric_limits<float>::infinity();
+    write_image(folder.path() / "sky.pfm", image);
+    const auto path =
+        folder.write("sky.alhazen",
+                     "alhazen 1\nenvironment { kind = picture; file = \"sky.pfm\" }\nsphere { }\n");
+    LoadOptions options;
+    EXPECT_EQ(load(path, options).diagnostics.warning_count(), 1u);
+    options.strict = true;
+    EXPECT_THROW((void)load(path, options), Error);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "alhazen/accel/cells/uniform_grid.h"
 
+#include <algorithm>
+
 #include "alhazen/accel/cells/cell_limits.h"
 #include "alhazen/base/error.h"
 
@@ -41,6 +43,9 @@ UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     for (std::size_t k = 0; k < 3; ++k) {
         config.cells[k] = reader.count(kAlong[k], "cells along the axis, 0: by the density", 0, 0,
                                        kMostAlongAxis);
+    }
+    if (std::ranges::all_of(config.cells, [](int n) { return n > 0; })) {
+        reader.exclude("density", "nx, ny and nz");
     }
     check_cell_count(config.cells);
     static constexpr const char* kLists[] = {"exact", "boxes"};

@@ -67,6 +67,12 @@ std::size_t SettingsReader::choice(const char* name, const char* what, std::size
     refuse(name, *text);
 }
 
+void SettingsReader::exclude(const char* name, const char* other) const {
+    if (find(name) == nullptr) return;
+    throw Error(ErrorKind::Usage, fmt::format("accelerator '{}': {} has no effect beside {}",
+                                              accelerator_, name, other));
+}
+
 void SettingsReader::finish() const {
     for (const auto& [name, value] : settings_) {
         std::string known;

@@ -38,6 +38,8 @@ class SettingsReader {
     [[nodiscard]] std::size_t choice(const char* name, const char* what, std::size_t fallback,
                                      std::span<const char* const> names);
 
+    /// Throws Error(Usage) if the setting `name` was given: `other` is used in place of it.
+    void exclude(const char* name, const char* other) const;
     /// Throws Error(Usage) if a setting was given that was not read.
     void finish() const;
     [[nodiscard]] const std::vector<SettingDescription>& described() const { return described_; }

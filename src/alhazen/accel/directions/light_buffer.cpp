@@ -307,6 +307,7 @@ LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {
     config.resolution = reader.count(
         "resolution", "cells along the longest edge of a light's window, 0: by the density", 0, 0,
         4096);
+    if (config.resolution > 0) reader.exclude("density", "resolution");
     config.lights = reader.count("lights", "maximum number of lights with a buffer", 16, 0, 1000);
     config.full_cells =
         reader.flag("full_cells", "lists end behind a polygon that fills their cell", true);

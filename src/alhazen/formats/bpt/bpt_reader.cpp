@@ -208,7 +208,7 @@ bool looks_like_bpt(std::string_view bytes) {
 
 std::vector<BptMesh> read_bpt(std::string_view bytes, const std::string& file,
                               const ImportOptions& options, Diagnostics& diagnostics) {
-    if (report_utf16(bytes, file, diagnostics)) return {};
+    if (report_wide_text(bytes, file, diagnostics)) return {};
     return BptReader(bytes, file, options, diagnostics).read();
 }
 

@@ -41,8 +41,9 @@ void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3
     const std::filesystem::path& script = source.options.view_script;
     if (!script.empty()) {
         diagnostics.note_file(script);
-        const std::string text = read_file(script, kMaxScriptBytes);
-        refuse_utf16(text, script.string());
+        const std::string bytes = read_file(script, kMaxScriptBytes);
+        refuse_wide_text(bytes, script.string());
+        const std::string text(without_byte_order_mark(bytes));
         scene.cameras = read_brlcad_views(text, script.string(), box, diagnostics);
         if (const auto background = brlcad_view_background(text)) {
             scene.picture.background = background;
@@ -78,7 +79,7 @@ SceneDescription BrlcadImporter::import(const ImportSource& source,
     database.file = source.path.string();
     if (BrlcadV4Reader::recognise(source.bytes)) {
         BrlcadV4Reader(source, database, diagnostics).read();
-    } else if (report_utf16(source.bytes, database.file, diagnostics)) {
+    } else if (report_wide_text(source.bytes, database.file, diagnostics)) {
         return scene;
     } else if (source.bytes.find('\0') != std::string_view::npos) {
         diagnostics.error({database.file, 0, 0},

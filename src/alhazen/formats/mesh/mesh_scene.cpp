@@ -49,7 +49,7 @@ void report_no_faces(const ImportSource& source, std::size_t points, Diagnostics
 bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics) {
     const std::string_view bytes = source.bytes;
     const FileLocation start{source.path.string(), 1, 1};
-    if (report_utf16(bytes, start.file, diagnostics)) return false;
+    if (report_wide_text(bytes, start.file, diagnostics)) return false;
     if (is_empty_file(bytes)) {
         diagnostics.error(start, "the file is empty");
     } else if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) {

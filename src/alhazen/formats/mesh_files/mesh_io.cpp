@@ -34,7 +34,7 @@ TriangleMesh read_any(const ImportSource& source, Diagnostics& diagnostics) {
         if (!is_plain_text(source, diagnostics)) return {};
         return read_obj(source.bytes, file, source.options, diagnostics);
     }
-    if (report_utf16(source.bytes, file, diagnostics)) return {};
+    if (report_wide_text(source.bytes, file, diagnostics)) return {};
     diagnostics.error({file, 1, 1}, "not a mesh of a known format; expected PLY, OBJ or STL");
     return {};
 }

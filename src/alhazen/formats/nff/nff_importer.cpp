@@ -59,7 +59,7 @@ SceneDescription NffImporter::import(const ImportSource& source, Diagnostics& di
     scene.format = name();
     scene.path = source.path;
     scene.conventions = nff_conventions();
-    if (report_utf16(source.bytes, source.path.string(), diagnostics)) return scene;
+    if (report_wide_text(source.bytes, source.path.string(), diagnostics)) return scene;
     NffReader(source, scene, diagnostics).read();
     return scene;
 }

@@ -95,7 +95,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
         diagnostics_.note_file(path);
         const std::string bytes = read_file(path, source_.options.max_included_bytes);
         const std::string_view text = without_byte_order_mark(bytes);
-        refuse_utf16(text, path.string());
+        refuse_wide_text(text, path.string());
         std::vector<MtlMaterial> materials = read_mtl(text, path.string(), diagnostics_);
         for (MtlMaterial& material : materials) {
             if (!entry_of_.try_emplace(material.name, entries_.size()).second) continue;

@@ -206,7 +206,7 @@ std::size_t PlyElement::min_bytes(PlyFormat format) const {
 
 std::optional<PlyHeader> read_ply_header(std::string_view bytes, const std::string& file,
                                          Diagnostics& diagnostics) {
-    if (report_utf16(bytes, file, diagnostics)) return std::nullopt;
+    if (report_wide_text(bytes, file, diagnostics)) return std::nullopt;
     return HeaderReader(bytes, file, diagnostics).read();
 }
 

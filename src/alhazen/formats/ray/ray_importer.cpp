@@ -50,6 +50,11 @@ void read_items(TextNode root, RayContext& context) {
             objects.read(item, material);
         }
     }
+    if (context.camera.without_axes) {
+        context.diagnostics.error(
+            *context.camera.without_axes,
+            "camera: look_at must not lie at the position, nor along updir from it");
+    }
 }
 
 }  // namespace
@@ -68,7 +73,7 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     scene.format = name();
     scene.path = source.path;
     scene.objects.push_back({"scene", {}, {source.path.string(), 1, 1}});
-    if (report_utf16(source.bytes, source.path.string(), diagnostics)) return scene;
+    if (report_wide_text(source.bytes, source.path.string(), diagnostics)) return scene;
     if (!starts_with_header(source.bytes)) {
         diagnostics.error({source.path.string(), 1, 1},
                           "not an SBT-raytracer scene: it must begin with 'SBT-raytracer 1.0' "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/formats/core/homogeneous_matrix.h"
 #include "alhazen/formats/ray/ray_extensions.h"
@@ -139,6 +140,7 @@ void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial
                       Place place) {
     Affine transform = object_from_part;
     std::optional<TextNode> object = item;
+    after_refused_word_ = std::exchange(refused_word_, false);
     // Transform chains are iterated, not recursed into: only groups use stack.
     while (object && object->is(NodeKind::Entry) && is_transform(object->text())) {
         object = read_transform(*object, transform);
@@ -163,6 +165,9 @@ void RayObjects::read_untransformed(TextNode item, const Affine& object_from_par
 
 void RayObjects::refuse(TextNode item, Place place) {
     const std::string_view name = item.text();
+    // In `ball foo { }` the word is what is not known.
+    if (after_refused_word_ && item.is(NodeKind::Entry)) return;
+    refused_word_ = item.is(NodeKind::Word);
     const auto error = [&](const std::string& message) {
         context_.diagnostics.error(item.location(), message);
     };
@@ -174,7 +179,7 @@ void RayObjects::refuse(TextNode item, Place place) {
     if (camera_or_light || is_shape(name)) {  // no entry: `camera = { }`, `sphere;`
         return error(std::string(name) + ": expected a block { } right after the name");
     }
-    if (!item.is(NodeKind::Entry)) {
+    if (!item.is(NodeKind::Entry) && !item.is(NodeKind::Word)) {
         return error("expected an object, found " + item.describe() + "; known are " +
                      known(place));
     }
@@ -188,6 +193,7 @@ void RayObjects::refuse(TextNode item, Place place) {
 /// Reads a group. A default set inside is local to it: `material` is a copy.
 void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayMaterial material) {
     for (const TextNode item : block) read(item, object_from_part, material, Place::Inside);
+    refused_word_ = false;
 }
 
 std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& object_from_part) {

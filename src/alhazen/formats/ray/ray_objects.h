@@ -38,6 +38,8 @@ class RayObjects {
 
     RayContext& context_;
     RayMaterials& materials_;
+    bool refused_word_ = false;        ///< the last item was a word alone, and refused
+    bool after_refused_word_ = false;  ///< so was the item before the one that is read
 };
 
 }  // namespace alhazen

@@ -31,13 +31,13 @@ Mat3 rotation(double x, double y, double z, double w) {
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-/// The axes of a camera that looks at its point `look_at`.
-Mat3 axes_towards(BlockReader& reader, const RayCamera& camera) {
+/// The axes of a camera that looks at its point `look_at`. Those of `camera` where there are none,
+/// which is an error unless a later block moves the camera.
+Mat3 axes_towards(BlockReader& reader, RayCamera& camera) {
     const Vec3 view = *camera.look_at - camera.eye, right = cross(view, camera.up);
     if (!has_direction(reader, "updir", camera.up)) return camera.axes;
     if (!(length_squared(right) > 0)) {
-        reader.error(reader.find("look_at").value_or(reader.block()),
-                     "look_at must not lie at the position, nor along updir from it");
+        camera.without_axes = reader.find("look_at").value_or(reader.block()).location();
         return camera.axes;
     }
     const Vec3 x = normalize(right), z = normalize(-view);
@@ -48,6 +48,7 @@ Mat3 axes_towards(BlockReader& reader, const RayCamera& camera) {
 /// those of `camera` hold where the file says nothing.
 Mat3 read_axes(BlockReader& reader, RayCamera& camera, bool normalise) {
     Mat3& axes = camera.axes;
+    camera.without_axes.reset();
     double q[4];
     // The first is the spelling of the reference.
     const auto turn = reader.find("quaternian", "quaternion");

@@ -121,7 +121,7 @@ class StlReader {
 
   private:
     void read_damaged_binary() {
-        if (is_utf16(bytes_)) return error({file_, 1, 1}, kUtf16Found);
+        if (report_wide_text(bytes_, file_, diagnostics_)) return;
         const std::string size = std::to_string(bytes_.size());
         if (bytes_.size() < kHeaderBytes) {
             return error({file_, 0, 0}, "not an STL file: " + size +

@@ -106,6 +106,8 @@ class Renderer {
     /// True if rays are distributed over the lens, the shutter time, area lights and rough
     /// reflections. Others use the centre of the lens and the time at which the shutter opens.
     [[nodiscard]] virtual bool distributes() const { return false; }
+    /// True if surfaces show what they reflect and transmit.
+    [[nodiscard]] virtual bool reflects() const { return true; }
     /// True if area lights cast penumbras.
     [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
     /// Applies the settings of the renderer to the conventions of the scene.

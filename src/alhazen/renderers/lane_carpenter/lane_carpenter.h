@@ -21,6 +21,7 @@ class LaneCarpenter final : public Renderer {
     /// Throws Error (Usage) naming the parts of the scene that are neither patches nor polygons.
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool needs_aggregate() const override { return false; }
+    [[nodiscard]] bool reflects() const override { return false; }
     [[nodiscard]] bool takes_wide_cameras() const override { return false; }
     [[nodiscard]] bool has_scan_lines() const override { return true; }
 

@@ -11,6 +11,7 @@ namespace alhazen {
 
 class RayCasting final : public SingleRayRenderer {
   public:
+    [[nodiscard]] bool reflects() const override { return false; }
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
     [[nodiscard]] std::unique_ptr<RayAnswers> answers(const RenderJob& job) const override;
 };

@@ -203,8 +203,8 @@ bool is_word(std::string_view text, std::string_view capitals) {
 }  // namespace
 
 IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(text) {
-    refuse_utf16(text, name);
-    IesReader reader(text_, name);
+    refuse_wide_text(text, name);
+    IesReader reader(without_byte_order_mark(text_), name);
     if (text.size() > kMostBytes) reader.fail("the file is larger than 16 MiB");
     std::string_view line = reader.line();
     bool since_1995 = false;

@@ -18,6 +18,30 @@ using testing::Imported;
 using testing::material_of;
 using testing::shape_of;
 
+TEST(NativeImporter, CallsABentPolygonAPolygonInItsErrors) {
+    const std::string bent = "polygon { vertices = [(0,0,0), (2,0,0), (2,2,.5), (0,2,0)] }";
+    const auto checked = [](const std::string& text) {
+        Imported i = import_native(text);
+        validate(i.scene, i.diagnostics);
+        return i;
+    };
+    for (const std::string& text :
+         {"union { box {} " + bent + " }",
+          "object \"o\" { box {} " + bent + " } union { sphere {} instance \"o\" { } }"}) {
+        const Imported i = checked(text);
+        EXPECT_EQ(i.errors(), 1u) << i.messages();
+        EXPECT_NE(i.messages().find("polygon bounds no volume, so it cannot be part of a solid"),
+                  std::string::npos)
+            << i.messages();
+    }
+    const Imported far =
+        checked("polygon { vertices = [(0,0,0), (2e71,0,0), (2e71,2e71,1e70), (0,2e71,0)] }");
+    EXPECT_NE(far.messages().find("polygon: each vertex must be three finite numbers below 1e70"),
+              std::string::npos)
+        << far.messages();
+    EXPECT_EQ(far.messages().find("mesh"), std::string::npos) << far.messages();
+}
+
 TEST(NativeImporter, ReadsPolygonsWithCornersOffThePlaneAsTriangles) {
     const auto bent = [](const char* off) {
         return import_native("polygon \"p\" { vertices = [(0,0,0), (2,0,0), (2,2," +

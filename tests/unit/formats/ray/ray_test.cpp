@@ -101,6 +101,9 @@ TEST(RayImporter, NamesTheExtensionItRefuses) {
          "area_light, spot_light, material, sphere"},
         {"{ warp { } }", "unknown object 'warp'; known are material, sphere"},
         {"{ warp { } }", "scale, transform and groups { }"},
+        {"ball foo { }", "scene.ray:2:1: error: unknown object 'ball'; known are"},
+        {"{ ball foo { } }", "unknown object 'ball'; known are material"},
+        {"sphere foo { }", "sphere: expected a block { } right after the name"},
     };
     for (const auto& c : cases) {
         const Imported i = import_ray(c.text);
@@ -126,6 +129,14 @@ TEST(RayImporter, SaysThatCamerasAndLightsStandAtTheTopLevel) {
         const Imported i = import_ray(text);
         EXPECT_EQ(i.errors(), 1u) << i.messages();
         EXPECT_TRUE(i.says(": expected a block { } right after the name")) << i.messages();
+    }
+}
+
+TEST(RayImporter, BlamesEveryUnknownObjectThatIsNotTheNameOfOne) {
+    for (const char* text : {"ball sphere { } foo { }", "{ ball } foo { }"}) {
+        const Imported i = import_ray(text);
+        EXPECT_TRUE(i.says("unknown object 'ball'")) << i.messages();
+        EXPECT_TRUE(i.says("unknown object 'foo'")) << i.messages();
     }
 }
 

@@ -111,6 +111,19 @@ TEST(RayImporter, LooksAtAPoint) {
     }
 }
 
+TEST(RayImporter, APointToLookAtMayLieWhereTheEyeIsBeforeALaterBlockMovesIt) {
+    const Imported moved =
+        import_ray("camera { look_at = (0,0,0); fov = 30 } camera { position = (0,0,5) }");
+    EXPECT_EQ(moved.errors(), 0u) << moved.messages();
+    expect_near(std::get<PerspectiveCamera>(moved.scene.cameras.at(0).camera).look, {0, 0, -1});
+    const Imported turned =
+        import_ray("camera { look_at = (0,0,0) } camera { viewdir = (1,0,0); updir = (0,1,0) }");
+    EXPECT_EQ(turned.errors(), 0u) << turned.messages();
+    const Imported still = import_ray("camera { look_at = (0,0,0) } camera { fov = 30 }");
+    EXPECT_EQ(still.errors(), 1u) << still.messages();
+    EXPECT_TRUE(still.says("look_at must not lie at the position"));
+}
+
 TEST(RayImporter, APointToLookAtHasNoEffectBesideAViewDirection) {
     const Imported i = import_ray(
         "camera { position = (0,0,3); viewdir = (0,1,0); updir = (0,0,1); look_at = (5,0,0); }");

@@ -1,7 +1,8 @@
-/// Every reader of a text format says of UTF-16 text what it is.
+/// Every reader of a text format says of UTF-16 and UTF-32 text what it is.
 
 #include <gtest/gtest.h>
 
+#include "alhazen/shading/lights/ies_profile.h"
 #include "unit/formats/import_text.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -15,6 +16,16 @@ std::string utf16(std::string_view text, bool big_endian = false) {
     for (const char c : text) {
         bytes += big_endian ? '\0' : c;
         bytes += big_endian ? c : '\0';
+    }
+    return bytes;
+}
+
+/// ASCII in units of `width` bytes, without a mark.
+std::string wide(std::string_view text, std::size_t width, bool big_endian) {
+    std::string bytes;
+    for (const char c : text) {
+        const std::string zeros(width - 1, '\0');
+        bytes += big_endian ? zeros + c : c + zeros;
     }
     return bytes;
 }
@@ -46,6 +57,33 @@ TEST(Utf16, IsToldOfInScenesOfEveryTextFormat) {
     }
 }
 
+TEST(Utf16, IsToldOfWithoutAMarkAndAsUtf32) {
+    using namespace std::string_view_literals;
+    const TemporaryFolder folder;
+    for (const char* suffix : {"alhazen", "ray", "nff", "aff", "gltf", "obj", "ply", "stl", "asc",
+                               "bpt", "rib", "txt"}) {
+        for (const bool big_endian : {false, true}) {
+            for (const std::size_t width : {2, 4}) {
+                for (const bool marked : {false, true}) {
+                    if (marked && width == 2) continue;
+                    const std::string_view mark = !marked      ? ""sv
+                                                  : big_endian ? "\0\0\xFE\xFF"sv
+                                                               : "\xFF\xFE\0\0"sv;
+                    const auto path = folder.write(
+                        std::string("a.") + suffix,
+                        std::string(mark) + wide("ply\nformat ascii", width, big_endian));
+                    const std::string said = findings_of(path);
+                    EXPECT_TRUE(said.starts_with(path.string() + ":1:1: ")) << said;
+                    EXPECT_TRUE(said.ends_with(
+                        width == 2 ? "the file is UTF-16 text; expected ASCII or UTF-8"
+                                   : "the file is UTF-32 text; expected ASCII or UTF-8"))
+                        << said;
+                }
+            }
+        }
+    }
+}
+
 TEST(Utf16, IsToldOfInFilesThatScenesName) {
     const TemporaryFolder folder;
     const std::string text = utf16("newmtl a\n");
@@ -72,6 +110,29 @@ TEST(Utf16, IsToldOfInFilesThatScenesName) {
     const auto script = folder.path() / "view.txt";
     EXPECT_EQ(findings_of(database, {.view_script = script}),
               script.string() + ":1:1: " + std::string(kFound));
+}
+
+TEST(Utf16, TheMarkOfUtf8IsNoPartOfScriptsAndProfiles) {
+    const std::string mark = "\xEF\xBB\xBF";
+    const TemporaryFolder folder;
+    const auto database =
+        folder.write("b.asc",
+                     "title {a}\nunits mm\nput b.s ell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1}\n"
+                     "put b.r comb region yes tree {l b.s}\n");
+    const std::string view = "viewsize 1; eye_pt 0 3 4; lookat_pt 0 0 0; start 0; end;";
+    const auto eye = [&](const std::string& text) {
+        Diagnostics found;
+        const SceneDescription scene =
+            import_scene(database, {.view_script = folder.write("view.rt", text)}, found);
+        EXPECT_EQ(testing::text_of(found), "");
+        return std::get<OrthographicCamera>(scene.cameras.at(0).camera).up;
+    };
+    EXPECT_EQ(eye(mark + view), eye(view));
+    // The factor 0.25 counts in files of before 1995, which have no such first line.
+    const std::string ies =
+        "IESNA:LM-63-1995\n[TEST] x\nTILT=NONE\n1 1 1 2 1 1 2 0 0 0\n0.5 0.25 100\n0 90\n0\n80 "
+        "80\n";
+    EXPECT_EQ(IesProfile(mark + ies, "a.ies").candela(0, 0), 40.0);
 }
 
 /// A requirement of YAML 1.1 (5.2).

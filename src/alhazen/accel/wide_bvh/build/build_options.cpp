@@ -1,5 +1,7 @@
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 
+#include <utility>
+
 #include "alhazen/base/error.h"
 
 namespace alhazen {
@@ -19,8 +21,8 @@ std::span<const BuildQualityEntry> build_quality_table() {
     return kEntries;
 }
 
-BuildQuality find_build_quality(const std::string& name) {
-    std::string names;
+BuildQuality find_build_quality(const std::string& name, std::string also) {
+    std::string names = std::move(also);
     for (const BuildQualityEntry& entry : kEntries) {
         if (name == entry.name) return entry.quality;
         names += names.empty() ? "" : ", ";

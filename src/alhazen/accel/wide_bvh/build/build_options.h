@@ -18,8 +18,8 @@ enum class BuildQuality : std::uint8_t {
 enum class Precision : std::uint8_t {
     Robust,  ///< double with exact signs: no leaks, the same bits as every other accelerator
     Fast,    ///< float where an accelerator supports it: may leak at edges, parameters have float
-             ///< precision; a leaving_ray misses the triangle that it leaves, unless that is thinner
-             ///< than 2^-20 of the largest coordinate of the accelerator's geometry (measured)
+           ///< precision; a leaving_ray misses the triangle that it leaves, unless that is thinner
+           ///< than 2^-20 of the largest coordinate of the accelerator's geometry (measured)
 };
 
 /// The representation of triangles in the leaves.
@@ -47,8 +47,9 @@ struct BuildQualityEntry {
 };
 
 [[nodiscard]] std::span<const BuildQualityEntry> build_quality_table();
-/// The entry with this name. Throws Error(Usage) with the valid names for an unknown one.
-[[nodiscard]] BuildQuality find_build_quality(const std::string& name);
+/// The entry with this name. Throws Error(Usage) with the valid names for an unknown one; `also`
+/// is another name that the caller takes, empty for none.
+[[nodiscard]] BuildQuality find_build_quality(const std::string& name, std::string also = {});
 [[nodiscard]] const char* name_of(BuildQuality quality);
 
 }  // namespace alhazen

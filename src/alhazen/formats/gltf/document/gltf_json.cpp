@@ -443,7 +443,7 @@ std::optional<json> parse_json(std::string_view text, const std::string& file, s
         diagnostics.error({file, 1, 1}, "JSON: the text begins with a byte order mark");
         return std::nullopt;
     }
-    if (report_utf16(text, file, diagnostics)) return std::nullopt;
+    if (report_wide_text(text, file, diagnostics)) return std::nullopt;
     try {
         Watch watch(most);
         static_cast<void>(json::sax_parse(text.begin(), text.end(), &watch));

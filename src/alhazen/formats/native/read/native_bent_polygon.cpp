@@ -9,6 +9,7 @@
 #include "alhazen/geometry/polygon/polygon_plane.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
+#include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/polygons/flat_vertices.h"
 
 namespace alhazen {
@@ -17,8 +18,9 @@ namespace {
 
 /// True if the numbers can be computed with; others are reported by the validation.
 bool is_complete(const Polygon& polygon) {
-    return polygon.vertices.size() > 3 &&
-           std::all_of(polygon.vertices.begin(), polygon.vertices.end(), is_finite);
+    return polygon.vertices.size() > 3 && std::ranges::all_of(polygon.vertices, [](const Vec3& p) {
+               return is_finite(p) && max_component(abs(p)) <= kMaxCoordinate;
+           });
 }
 
 /// Drops corners of a single loop that are where the one before is.
@@ -74,7 +76,7 @@ void replace_bent_polygon(NativeContext& context, Part& part) {
     if (!is_mesh) return;
     auto mesh = triangles_of(polygon, flat);
     context.count_elements(mesh->positions.size() + mesh->triangles.size(), part.location);
-    context.scene.meshes.push_back({part.name, std::move(mesh), part.location, {}});
+    context.scene.meshes.push_back({part.name, std::move(mesh), part.location, {}, true});
     part.what = static_cast<MeshIndex>(context.scene.meshes.size() - 1);
 }
 

@@ -35,7 +35,7 @@ SceneDescription NativeImporter::import(const ImportSource& source,
     scene.path = source.path;
     scene.conventions = default_conventions();
     scene.objects.push_back({"scene", {}, {source.path.string(), 1, 1}});
-    if (report_utf16(source.bytes, source.path.string(), diagnostics)) return scene;
+    if (report_wide_text(source.bytes, source.path.string(), diagnostics)) return scene;
     const SourceText text(source.bytes, source.path.string());
     const TextTree tree(text,
                         {.max_nesting = source.options.max_nesting,

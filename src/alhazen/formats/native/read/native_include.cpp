@@ -81,7 +81,7 @@ void read_native_include(TextNode entry, NativeContext& context, NativeScope& sc
     std::filesystem::path path;
     const std::optional<std::string> bytes = read_bytes(entry.first(), context, scope, path);
     if (!bytes) return;
-    if (report_utf16(*bytes, path.string(), context.diagnostics)) return;
+    if (report_wide_text(*bytes, path.string(), context.diagnostics)) return;
     const SourceText text(without_byte_order_mark(*bytes), path.string());
     const TextTree tree(text,
                         {.max_nesting = context.options.max_nesting,
