@@ -92,7 +92,7 @@ class ExactOptics final : public SurfaceOptics {
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
-    /// A thin sheet at the place of a boundary; its sample is as evaluated, not turned to a ray.
+    /// A thin sheet at the place of a surface; its sample is as evaluated, not turned to a ray.
     struct Sheet {
         Surface surface;
         MaterialSample sample;
@@ -102,11 +102,13 @@ class ExactOptics final : public SurfaceOptics {
     void set_media(const Arrival& arrival, ShadingPoint& point, const MetInstead* instead);
     /// ScatterPoint::yields. `sides`: of the surface.
     [[nodiscard]] bool yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides);
-    /// The smooth sheet that the boundary `point` is met below, as a ray hits the two; none: it
-    /// does not refract, or there is none.
-    [[nodiscard]] std::optional<Sheet> sheet_on(const ShadingPoint& point, const Arrival& arrival,
-                                                const Sides& sides) const;
-    /// ScatterPoint::lay_below.
+    /// The sheets at the place of the point as a ray hits them, whose faces were found; the point
+    /// itself included, if it is one.
+    [[nodiscard]] std::vector<Sheet> sheets_at(const ShadingPoint& point,
+                                               const Arrival& arrival) const;
+    [[nodiscard]] std::vector<Sheet> other_sheets(const ShadingPoint& point,
+                                                  const Arrival& arrival) const;
+    /// Lays the point below a sheet.
     void lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
                    ShadingPoint& point) const;
     /// A face that a ray crosses.

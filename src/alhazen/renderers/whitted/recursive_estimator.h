@@ -390,7 +390,7 @@ class RecursiveEstimator {
         } else {
             met.refracted = send_refracted(seen, contribution, seen.path.nm, front.next);
         }
-        if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
+        if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : point.sheets;
     }
 
     /// The path of the ray that met the surface, in the medium of a ray that leaves the surface
