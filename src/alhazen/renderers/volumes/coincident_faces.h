@@ -11,8 +11,8 @@
 /// of them. Partly covering faces are ignored.
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
 /// a boundary that refracts is met below a smooth sheet, and of others and the boundary the one
-/// that was hit is met alone. Other sheets, and an opaque face below a sheet, are told; opaque faces
-/// that are hit first are met alone.
+/// that was hit is met alone. Other sheets, and an opaque face below a sheet, are told; opaque
+/// faces that are hit first are met alone.
 
 #include <algorithm>
 #include <array>
