@@ -403,6 +403,27 @@ ExactOptics::Medium ExactOptics::medium_of(const OtherFace& face) const {
     return medium;
 }
 
+std::uint32_t ExactOptics::within(const MediumStack& volumes) {
+    std::uint32_t around = kOutside;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const alhazen::Medium& volume = volumes[i];
+        const MaterialSample sample =
+            evaluate(scene_.materials[volume.material], scene_.textures, SurfaceLookup{});
+        Medium medium;
+        medium.part = volume.part;
+        medium.material = volume.material;
+        medium.index = volume.index;
+        if (sample.physical) {
+            medium.absorption = volume.absorption;
+        } else if (!tints_events_) {
+            medium.absorption = absorption_of_unit_length(sample.transmissive);
+        }
+        medium.hidden = (volume.seen_by & mask_of(RayKind::Shadow)) == 0;
+        around = enter(medium, around);
+    }
+    return around;
+}
+
 std::uint32_t ExactOptics::enter(Medium medium, std::uint32_t around) {
     medium.around = around;
     media_.push_back(medium);

@@ -12,7 +12,7 @@
 /// medium around it. Volumes may be left in any order: they are identified by the part that bounds
 /// them, else by its material. A solid of several media is one volume, whose medium changes at its
 /// walls. Faces that coincide (coincident_faces.h) are one boundary; kt that acts at surfaces acts
-/// at each. The eye is outside all volumes. Threads: used by one at a time.
+/// at each. Threads: used by one at a time.
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +46,10 @@ class ExactOptics final : public SurfaceOptics {
     [[nodiscard]] const Rgb& absorption(std::uint32_t medium) const {
         return media_[medium].absorption;
     }
+
+    /// The medium inside volumes around a point, at which a ray begins: those of kt by distance
+    /// have that at texture coordinates 0.
+    [[nodiscard]] std::uint32_t within(const MediumStack& volumes);
 
     /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.

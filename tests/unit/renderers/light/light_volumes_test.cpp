@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
