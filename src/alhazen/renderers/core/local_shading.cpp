@@ -205,6 +205,7 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const
 void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,
                             const PointNeeds& needs, ShadingPoint& point) {
     point.inside = arrival.inside;
+    point.sheets = {1, 1, 1};
     std::array<UvFootprint, 2> footprint;
     const bool varies =
         set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);

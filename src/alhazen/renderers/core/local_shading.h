@@ -58,7 +58,8 @@ struct ShadingPoint {
     bool inside = false;         ///< the ray ran inside a transparent solid
     bool entering = true;        ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
-    Rgb passing;  ///< kt of the surface; at a wall, of both media
+    Rgb passing;          ///< kt of the surface; at a wall, of both media
+    Rgb sheets{1, 1, 1};  ///< of `passing`, the share of thin sheets at the place of a boundary
     /// kt of the medium that a solid of several media states on this side; else of the surface.
     Rgb medium;
     bool medium_is_physical = false;  ///< it has an absorption; kt is not applied by distance

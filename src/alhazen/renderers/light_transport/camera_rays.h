@@ -2,9 +2,9 @@
 /// Eye rays distributed over the lens and the shutter time.
 
 #include "alhazen/cameras/eye_rays.h"
-#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 
 namespace alhazen {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
-#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 
 namespace alhazen {
 

@@ -1,7 +1,8 @@
 #pragma once
 /// The surface that a path meets where faces of several parts coincide (coincident_faces.h): an
 /// opaque one, a thin sheet where the boundary only changes the media, which is crossed with it, or
-/// a boundary that refracts, below a smooth sheet.
+/// a boundary that refracts, below a smooth sheet. Below a smooth sheet are also met an opaque face
+/// that does not shine and another sheet.
 
 #include <optional>
 
@@ -31,6 +32,9 @@ class MetFaces {
         faces_.find(hit, end.direction, end.arrival, end.mask);
         has_sheet_ = false;
         const bool is_opaque = faces_.opaque().has_value();
+        if (hit.material->thin && (is_opaque || (!faces_.instead() && !faces_.sheets().empty()))) {
+            return find_below(hit, end, met);
+        }
         std::optional<Hit> other = faces_.opaque();
         if (!is_opaque && faces_.instead()) {
             if (yields(hit, end)) {
@@ -58,6 +62,21 @@ class MetFaces {
     [[nodiscard]] const ScatterPoint* sheet() const { return has_sheet_ ? &own_ : nullptr; }
 
   private:
+    /// `find` at a sheet that lies on an opaque face or another sheet.
+    [[nodiscard]] std::optional<Hit> find_below(const ShadingPoint& hit, const End& end,
+                                                ShadingPoint& met) {
+        (void)yields(hit, end);
+        const bool shines = !hit.material->emission.is_black() || hit.material->unlit;
+        if (own_.has_density() || shines) return {};
+        const Hit below = faces_.opaque() ? *faces_.opaque() : faces_.sheets().front();
+        const Ray ray = faces_.ray();
+        set_shading_point(scene_, ray, below, end.arrival, {}, sheet_);
+        if (!sheet_.material->emission.is_black() || sheet_.material->unlit) return {};
+        // Sheets are outside of solids.
+        has_sheet_ = sheet_.entering || !scene_.is_closed(sheet_.surface.part);
+        set_shading_point(scene_, ray, below, end.arrival, {.constant = end.constant}, met);
+        return below;
+    }
     /// Sets `own_` to a surface whose faces were found; true if it yields.
     [[nodiscard]] bool yields(const ShadingPoint& point, const End& end) {
         own_.set(scene_, point, end.media, end.waves, false, end.bsdfs, &faces_.others());
@@ -67,7 +86,7 @@ class MetFaces {
     const Scene& scene_;
     CoincidentFaces faces_;
     ScatterPoint own_;    ///< a surface that may yield: the one that was hit, or the sheet there
-    ShadingPoint sheet_;  ///< at the place of a boundary that was hit
+    ShadingPoint sheet_;  ///< at the place of what was hit
     bool has_sheet_ = false;
 };
 

@@ -152,7 +152,7 @@ void ScatterPoint::tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const {
 }
 
 void ScatterPoint::lay_below(const ScatterPoint& sheet, double eta, Bsdf& bsdf) const {
-    // Densities of rough boundaries must not depend on the view.
+    // Densities of rough surfaces must not depend on the view.
     const bool rough = bsdf.has_density(), from_dense = eta > 1.0 && !rough;
     Vec3 view = rough ? Vec3{0, 0, 1} : local_view_;
     if (from_dense) {
@@ -164,6 +164,10 @@ void ScatterPoint::lay_below(const ScatterPoint& sheet, double eta, Bsdf& bsdf) 
     }
     const Spectrum on_top = sheet.bsdf().singular(view, Transport::Radiance).reflected;
     const Spectrum through = sheet.bsdf().straight(view);
+    if (rough && (thin_ || !bsdf.transmits())) {
+        bsdf.tint(through * through, through);
+        return bsdf.add(on_top, Mirror{ConstantTerm{on_top}});
+    }
     const SingularLight below = bsdf.singular(local_view_, Transport::Importance);
     Spectrum reflected = Spectrum::all(1), transmitted, added;
     for (int i = 0; i < Spectrum::kCount; ++i) {

@@ -173,8 +173,9 @@ class ScatterPoint {
 
     /// Tints the light through a thin sheet by the faces at its place.
     void tint_by_faces(const Wavelengths& waves, Bsdf& bsdf) const;
-    /// Lays a smooth sheet on the side of the lower index of a boundary: light is reflected between
-    /// the two any number of times. A rough boundary is only tinted. `eta`: as of BsdfPlace.
+    /// Lays a smooth sheet on the side of the lower index of a boundary, or on an opaque face or a
+    /// sheet: light is reflected between the two any number of times, once where one of them
+    /// scatters it. A rough boundary is only tinted. `eta`: as of BsdfPlace.
     void lay_below(const ScatterPoint& sheet, double eta, Bsdf& bsdf) const;
 
     Bsdf own_;

@@ -62,8 +62,9 @@ std::uint32_t medium_of_solid(const Scene& scene, const Hit& hit) {
 }  // namespace
 
 CoincidentFaces::CoincidentFaces(const Scene& scene) : scene_(scene) {
-    if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                     [](const Material& m) { return has_inside(m); })) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+            return has_inside(m) || (is_sheet(m) && is_clear(m));
+        })) {
         return;
     }
     std::vector<Kind> kinds;
@@ -75,11 +76,17 @@ CoincidentFaces::CoincidentFaces(const Scene& scene) : scene_(scene) {
     kinds_ = std::make_shared<const std::vector<Kind>>(std::move(kinds));
 }
 
-void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
-                           RayMask mask) {
+void CoincidentFaces::clear() {
     others_.clear();
     opaque_.reset();
     instead_.reset();
+    sheets_.clear();
+    sheet_parts_.clear();
+}
+
+void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
+                           RayMask mask) {
+    clear();
     if (!kinds_ || point.material->coverage < 1.0) return;
     const Surface& surface = point.surface;
     const Kind kind = (*kinds_)[static_cast<std::size_t>(surface.materials[0])];
@@ -99,7 +106,6 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     if (opaque_) {
         others_.clear();
         instead_.reset();
-        if (is_sheet) opaque_.reset();
     } else if (!others_.empty()) {
         const Medium inside = volume_of(scene_, point);
         const bool enters = !is_sheet && enters_volume(point);
@@ -110,9 +116,7 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
 void CoincidentFaces::find_next_to_sheets(const ShadingPoint& point, const Vec3& direction,
                                           const Arrival& arrival, RayMask mask) {
     if (!point.material->thin) return find(point, direction, arrival, mask);
-    others_.clear();
-    opaque_.reset();
-    instead_.reset();
+    clear();
 }
 
 bool CoincidentFaces::may_bound(const Hit& hit) const {
@@ -155,9 +159,7 @@ void CoincidentFaces::sort(OtherFaces& faces, const ShadingPoint& point, const V
     std::swap(others_, faces);
     sort_entered(point, nullptr, direction, arrival, kAllRays);
     std::swap(others_, faces);
-    others_.clear();
-    opaque_.reset();
-    instead_.reset();
+    clear();
 }
 
 void CoincidentFaces::find_hits(const Surface& surface, const Arrival& arrival, RayMask mask) {
@@ -180,7 +182,13 @@ void CoincidentFaces::look_at(const Hit& hit, const std::uint64_t* own, const Ar
     if (other_.material->coverage < 1.0 || is_hit_from_behind(other_)) return;
     const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
     if (other_.material->thin && (*kinds_)[material] != Kind::Opaque) {
-        if (own != nullptr && !instead_ && !other_.surface.media.known) instead_ = hit;
+        if (other_.surface.media.known) return;
+        if (own != nullptr && !instead_) instead_ = hit;
+        const HitParts parts{other_.surface.part, other_.surface.instance};
+        if (std::find(sheet_parts_.begin(), sheet_parts_.end(), parts) != sheet_parts_.end())
+            return;
+        sheet_parts_.push_back(parts);
+        sheets_.push_back(hit);
         return;
     }
     const bool known = other_.surface.media.known;

@@ -11,7 +11,8 @@
 /// of them. Partly covering faces are ignored.
 /// A thin sheet is met where the boundary at its place does not refract, which is crossed with it;
 /// a boundary that refracts is met below a smooth sheet, and of others and the boundary the one
-/// that was hit is met alone. Of several thin sheets one is met.
+/// that was hit is met alone. Other sheets, and an opaque face below a sheet, are told; opaque
+/// faces that are hit first are met alone.
 
 #include <algorithm>
 #include <array>
@@ -87,8 +88,11 @@ class CoincidentFaces {
                              const Arrival& arrival, RayMask mask);
     /// The faces that are crossed with the surface.
     [[nodiscard]] const OtherFaces& others() const { return others_; }
-    /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
+    /// The hit of an opaque face along `ray()`; none: the surface itself is hit. At a thin sheet:
+    /// of the face below it.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
+    /// Hits along `ray()` of other thin sheets, one of each part.
+    [[nodiscard]] const std::vector<Hit>& sheets() const { return sheets_; }
     /// A hit along `ray()` that may be met instead of the surface: of a thin sheet at a face that
     /// bounds a volume, of such a face at a thin sheet.
     [[nodiscard]] const std::optional<Hit>& instead() const { return instead_; }
@@ -121,6 +125,8 @@ class CoincidentFaces {
         std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
+    /// Forgets what was found.
+    void clear();
     /// Finds `hits_` along `ray_`, without some of the part of the surface itself.
     void find_hits(const Surface& surface, const Arrival& arrival, RayMask mask);
     /// `own`: the volume of the face that was hit; null: a thin sheet was.
@@ -142,6 +148,8 @@ class CoincidentFaces {
     std::vector<Entered> entered_;
     std::vector<Within> within_;
     std::optional<Hit> opaque_, instead_;
+    std::vector<Hit> sheets_;
+    std::vector<HitParts> sheet_parts_;  ///< of `sheets_`
     ShadingPoint other_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "alhazen/renderers/core/tinted_media.h"
+#include "alhazen/renderers/volumes/sheet_layer.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/texture_inputs.h"
@@ -61,6 +62,11 @@ void turn_conductor(const Conductor& metal, double cosine, double here, Material
     keep_below_reflection(sample);
 }
 
+/// True if a thin sheet does not spread the light that passes it, as BSDFs have it.
+bool is_smooth(const MaterialSample& sheet) {
+    return sheet.roughness * sheet.roughness < kSmoothAlpha;
+}
+
 }  // namespace
 
 ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
@@ -76,18 +82,19 @@ ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
 /// Completes the point of a surface that is met instead of another.
 class ExactOptics::MetInstead final : public SurfaceOptics {
   public:
-    MetInstead(ExactOptics& optics, const ShadingPoint& other) : optics_(optics) {
-        if (other.material->thin) sheet_ = Sheet{other.surface, *other.material};
+    MetInstead(ExactOptics& optics, const ShadingPoint& other, const Arrival& arrival)
+        : optics_(optics) {
+        if (other.material->thin) sheets_ = optics.sheets_at(other, arrival);
     }
     void set_media(const Arrival& arrival, ShadingPoint& point) override {
         optics_.set_media(arrival, point, this);
     }
-    /// The other surface; none: it was no sheet.
-    [[nodiscard]] const std::optional<Sheet>& sheet() const { return sheet_; }
+    /// The other surface and further sheets at its place; none: it was no sheet.
+    [[nodiscard]] const std::vector<Sheet>& sheets() const { return sheets_; }
 
   private:
     ExactOptics& optics_;
-    std::optional<Sheet> sheet_;
+    std::vector<Sheet> sheets_;
 };
 
 void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
@@ -99,19 +106,24 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     faces_.find(point, -point.view, arrival, arrival.mask);
     if (faces_.opaque()) {
         // Its material bounds no volume: no further faces are looked for.
-        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival,
-                                 {.optics = this}, point);
+        const std::vector<Sheet> sheets = sheets_at(point, arrival);
+        set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival,
+                          {.optics = this}, point);
+        if (!hides_sheets(scene_, point)) {
+            for (const Sheet& sheet : sheets) lay_below(sheet, arrival, {}, point);
+        }
+        return;
     }
     const MaterialSample& met = *point.material;
     const Sides sides =
         sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
     if (instead == nullptr && faces_.instead() && yields(point, arrival.medium, sides)) {
-        MetInstead other(*this, point);
+        MetInstead other(*this, point, arrival);
         return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
                                  {.optics = &other}, point);
     }
-    const std::optional<Sheet> sheet =
-        instead != nullptr ? instead->sheet() : sheet_on(point, arrival, sides);
+    const bool known = instead != nullptr && !met.thin;
+    const std::vector<Sheet> sheets = known ? instead->sheets() : other_sheets(point, arrival);
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
     point.medium_is_physical = met.physical || !tints_events_;
@@ -135,19 +147,12 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     } else {
         point.passing = tint_of(*point.material) * sides.before;
     }
-    if (sheet) lay_below(*sheet, arrival, sides, point);
+    for (const Sheet& sheet : sheets) {
+        if (point.material->thin || is_smooth(sheet.sample)) {
+            lay_below(sheet, arrival, sides, point);
+        }
+    }
 }
-
-namespace {
-
-/// True if a thin sheet does not scatter or emit light; with the roughness below which BSDFs are
-/// smooth, too.
-bool is_smooth(const MaterialSample& sheet) {
-    return sheet.roughness * sheet.roughness < kSmoothAlpha && sheet.diffuse.is_black() &&
-           sheet.ambient.is_black() && sheet.emission.is_black();
-}
-
-}  // namespace
 
 bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
     if (point.material->thin) {
@@ -158,25 +163,34 @@ bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const 
     return sides.here == sides.beyond && may_only_bound_volume(scene_.materials[id]);
 }
 
-std::optional<ExactOptics::Sheet> ExactOptics::sheet_on(const ShadingPoint& point,
-                                                        const Arrival& arrival,
-                                                        const Sides& sides) const {
-    if (point.material->thin || !faces_.instead() || sides.here == sides.beyond) return {};
-    Sheet sheet;
-    set_surface(*scene_.aggregate, faces_.ray(), *faces_.instead(), CoordinateNeed::all(),
-                sheet.surface, arrival.time);
-    const SurfaceLookup lookup = lookup_at(scene_, sheet.surface, -point.view, arrival.width);
-    sheet.sample = material_at(scene_, sheet.surface, lookup.footprint, lookup.aperture);
-    if (!is_smooth(sheet.sample)) return {};
-    return sheet;
+std::vector<ExactOptics::Sheet> ExactOptics::sheets_at(const ShadingPoint& point,
+                                                       const Arrival& arrival) const {
+    std::vector<Sheet> sheets = other_sheets(point, arrival);
+    if (point.material->thin) sheets.push_back({point.surface, *point.material});
+    return sheets;
+}
+
+std::vector<ExactOptics::Sheet> ExactOptics::other_sheets(const ShadingPoint& point,
+                                                          const Arrival& arrival) const {
+    std::vector<Sheet> sheets;
+    for (const Hit& hit : faces_.sheets()) {
+        Sheet& sheet = sheets.emplace_back();
+        set_surface(*scene_.aggregate, faces_.ray(), hit, CoordinateNeed::all(), sheet.surface,
+                    arrival.time);
+        const SurfaceLookup lookup = lookup_at(scene_, sheet.surface, -point.view, arrival.width);
+        sheet.sample = material_at(scene_, sheet.surface, lookup.footprint, lookup.aperture);
+    }
+    return sheets;
 }
 
 void ExactOptics::lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
                             ShadingPoint& point) const {
-    // The sheet is on the side of the lower index.
-    const bool from_dense = sides.here > sides.beyond;
+    // The sheet is on the side of the lower index, or outside.
+    const bool is_outside = sides.here == sides.beyond && !point.entering &&
+                            !point.material->thin && !point.passing.is_black();
+    const bool is_behind = sides.here > sides.beyond || is_outside;
     double cosine = dot(point.view, point.normal);
-    if (from_dense) {
+    if (is_behind) {
         const double squared = 1.0 - point.behind.eta * point.behind.eta * (1.0 - cosine * cosine);
         if (!(squared > 0.0)) return;
         cosine = std::sqrt(squared);
@@ -186,25 +200,7 @@ void ExactOptics::lay_below(const Sheet& sheet, const Arrival& arrival, const Si
     MaterialSample turned = sheet.sample;
     turn(sheet.surface, lookup_at(scene_, sheet.surface, -point.view, arrival.width), cosine,
          has_index ? around : 1.0, has_index ? sheet.sample.index : 1.0, turned);
-    MaterialSample& below = point.own_material();
-    for (int i = 0; i < 3; ++i) {
-        const double on_top = turned.reflective[i], through = turned.transmissive[i];
-        // Light is reflected between the two any number of times.
-        const double once = 1.0 - on_top * below.reflective[i];
-        const double passes = once > 0.0 ? through / once : 0.0, passed = point.passing[i];
-        point.passing[i] = passes * passed;
-        if (from_dense) {
-            const double back = once > 0.0 ? passed * passed / once : 0.0;
-            below.reflective[i] += back * on_top;
-            below.specular[i] += back * turned.specular[i];
-            continue;
-        }
-        below.reflective[i] = on_top + through * passes * below.reflective[i];
-        below.specular[i] = turned.specular[i] + through * passes * below.specular[i];
-        below.diffuse[i] *= through * passes;
-        below.ambient[i] *= through * passes;
-        below.emission[i] *= passes;
-    }
+    alhazen::lay_below(turned, is_behind, point);
 }
 
 void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {
@@ -405,6 +401,27 @@ ExactOptics::Medium ExactOptics::medium_of(const OtherFace& face) const {
         medium.absorption = absorption_of_unit_length(face.kt);
     }
     return medium;
+}
+
+std::uint32_t ExactOptics::within(const MediumStack& volumes) {
+    std::uint32_t around = kOutside;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const alhazen::Medium& volume = volumes[i];
+        const MaterialSample sample =
+            evaluate(scene_.materials[volume.material], scene_.textures, SurfaceLookup{});
+        Medium medium;
+        medium.part = volume.part;
+        medium.material = volume.material;
+        medium.index = volume.index;
+        if (sample.physical) {
+            medium.absorption = volume.absorption;
+        } else if (!tints_events_) {
+            medium.absorption = absorption_of_unit_length(sample.transmissive);
+        }
+        medium.hidden = (volume.seen_by & mask_of(RayKind::Shadow)) == 0;
+        around = enter(medium, around);
+    }
+    return around;
 }
 
 std::uint32_t ExactOptics::enter(Medium medium, std::uint32_t around) {

@@ -12,7 +12,7 @@
 /// medium around it. Volumes may be left in any order: they are identified by the part that bounds
 /// them, else by its material. A solid of several media is one volume, whose medium changes at its
 /// walls. Faces that coincide (coincident_faces.h) are one boundary; kt that acts at surfaces acts
-/// at each. The eye is outside all volumes. Threads: used by one at a time.
+/// at each. Threads: used by one at a time.
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +46,10 @@ class ExactOptics final : public SurfaceOptics {
     [[nodiscard]] const Rgb& absorption(std::uint32_t medium) const {
         return media_[medium].absorption;
     }
+
+    /// The medium inside volumes around a point, at which a ray begins: those of kt by distance
+    /// have that at texture coordinates 0.
+    [[nodiscard]] std::uint32_t within(const MediumStack& volumes);
 
     /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.
@@ -92,7 +96,7 @@ class ExactOptics final : public SurfaceOptics {
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
                                  bool entering, std::uint32_t around, const OtherFaces& others);
-    /// A thin sheet at the place of a boundary; its sample is as evaluated, not turned to a ray.
+    /// A thin sheet at the place of a surface; its sample is as evaluated, not turned to a ray.
     struct Sheet {
         Surface surface;
         MaterialSample sample;
@@ -102,11 +106,13 @@ class ExactOptics final : public SurfaceOptics {
     void set_media(const Arrival& arrival, ShadingPoint& point, const MetInstead* instead);
     /// ScatterPoint::yields. `sides`: of the surface.
     [[nodiscard]] bool yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides);
-    /// The smooth sheet that the boundary `point` is met below, as a ray hits the two; none: it
-    /// does not refract, or there is none.
-    [[nodiscard]] std::optional<Sheet> sheet_on(const ShadingPoint& point, const Arrival& arrival,
-                                                const Sides& sides) const;
-    /// ScatterPoint::lay_below.
+    /// The sheets at the place of the point as a ray hits them, whose faces were found; the point
+    /// itself included, if it is one.
+    [[nodiscard]] std::vector<Sheet> sheets_at(const ShadingPoint& point,
+                                               const Arrival& arrival) const;
+    [[nodiscard]] std::vector<Sheet> other_sheets(const ShadingPoint& point,
+                                                  const Arrival& arrival) const;
+    /// Lays the point below a sheet.
     void lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
                    ShadingPoint& point) const;
     /// A face that a ray crosses.

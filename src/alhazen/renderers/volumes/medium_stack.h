@@ -39,6 +39,9 @@ class MediumStack {
     MediumStack() {}  // NOLINT(modernize-use-equals-default)
 
     [[nodiscard]] bool empty() const { return media_.empty(); }
+    [[nodiscard]] std::size_t size() const { return media_.size(); }
+    /// Outermost first.
+    [[nodiscard]] const Medium& operator[](std::size_t i) const { return media_[i].value; }
     /// The innermost volume; null outside all volumes.
     [[nodiscard]] const Medium* here() const {
         return media_.empty() ? nullptr : &media_.back().value;

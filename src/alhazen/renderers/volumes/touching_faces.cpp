@@ -1,10 +1,24 @@
 #include "alhazen/renderers/volumes/touching_faces.h"
 
+#include <cmath>
+#include <utility>
+
+#include "alhazen/renderers/volumes/sheet_layer.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/optics/dispersion.h"
 
 namespace alhazen {
+
+namespace {
+
+/// Leaves the material of a point as it is evaluated.
+class KeptAsEvaluated final : public SurfaceOptics {
+  public:
+    void set_media(const Arrival& /*arrival*/, ShadingPoint& /*point*/) override {}
+};
+
+}  // namespace
 
 TouchingFaces::TouchingFaces(const Scene& scene, TintedMedia& media)
     : scene_(scene),
@@ -13,12 +27,76 @@ TouchingFaces::TouchingFaces(const Scene& scene, TintedMedia& media)
                     ShadingConventions::RefractionTint::PerEvent),
       faces_(scene) {}
 
+/// Completes the point of a boundary at the place of the sheets that a ray has hit.
+class TouchingFaces::BelowSheets final : public SurfaceOptics {
+  public:
+    BelowSheets(TouchingFaces& touching, std::vector<MaterialSample> sheets)
+        : touching_(touching), sheets_(std::move(sheets)) {}
+    void set_media(const Arrival& arrival, ShadingPoint& point) override {
+        CoincidentFaces& faces = touching_.faces_;
+        faces.find(point, -point.view, arrival, arrival.mask);
+        touching_.join(point.surface.media.known ? OtherFaces{} : faces.others(), arrival, point);
+        touching_.lay_below(sheets_, point);
+    }
+
+  private:
+    TouchingFaces& touching_;
+    std::vector<MaterialSample> sheets_;
+};
+
 void TouchingFaces::set_media(const Arrival& arrival, ShadingPoint& point) {
-    if (point.material->thin || point.surface.media.known) return join({}, arrival, point);
+    if (point.surface.media.known) return join({}, arrival, point);
     faces_.find(point, -point.view, arrival, arrival.mask);
-    if (!faces_.opaque()) return join(faces_.others(), arrival, point);
-    // Its material bounds no volume: no further faces are looked for.
-    set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival, {}, point);
+    if (faces_.opaque()) {
+        // Its material bounds no volume: no further faces are looked for.
+        std::vector<MaterialSample> sheets = sheets_at(point, arrival, true);
+        set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival, {}, point);
+        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), point);
+        return;
+    }
+    if (point.material->thin && faces_.instead()) {
+        BelowSheets below(*this, sheets_at(point, arrival, true));
+        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.instead()), arrival,
+                                 {.optics = &below}, point);
+    }
+    join(point.material->thin ? OtherFaces{} : faces_.others(), arrival, point);
+    lay_below(sheets_at(point, arrival, false), point);
+}
+
+std::vector<MaterialSample> TouchingFaces::sheets_at(const ShadingPoint& point,
+                                                     const Arrival& arrival, bool own) const {
+    std::vector<MaterialSample> sheets;
+    if (own && point.material->thin) sheets.push_back(*point.material);
+    ShadingPoint other;
+    for (const Hit& hit : faces_.sheets()) {
+        KeptAsEvaluated as_evaluated;
+        set_shading_point(scene_, faces_.ray(), hit, arrival, {.optics = &as_evaluated}, other);
+        sheets.push_back(*other.material);
+    }
+    return sheets;
+}
+
+void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const {
+    if (sheets.empty()) return;
+    double cosine = dot(point.view, point.normal);
+    bool is_behind = false;
+    if (!point.material->thin && !point.passing.is_black()) {
+        // The sheets are on the side of the lower index, or outside.
+        const double air = scene_.conventions.shading.air_index;
+        const double eta = point.behind.known ? point.behind.eta
+                           : point.entering   ? air / point.material->index
+                                              : point.material->index / air;
+        is_behind = eta > 1.0 || (eta == 1.0 && !point.entering);
+        if (is_behind) {
+            const double squared = 1.0 - eta * eta * (1.0 - cosine * cosine);
+            if (!(squared > 0.0)) return;
+            cosine = std::sqrt(squared);
+        }
+    }
+    for (MaterialSample& sheet : sheets) {
+        turn_to_view(sheet, cosine, false);
+        alhazen::lay_below(sheet, is_behind, point);
+    }
 }
 
 void TouchingFaces::join(const OtherFaces& others, const Arrival& arrival, ShadingPoint& point) {

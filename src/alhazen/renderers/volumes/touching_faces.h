@@ -4,10 +4,11 @@
 ///
 /// Conventions: faces coincide as in coincident_faces.h. kt that acts at surfaces acts at each.
 /// Faces of one material that face the same side are pieces of one surface. Solids of several media
-/// and thin sheets are met alone.
+/// are met alone. What lies at the place of thin sheets is met below them (sheet_layer.h).
 /// Threads: used by one at a time.
 
 #include <optional>
+#include <vector>
 
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
@@ -31,6 +32,13 @@ class TouchingFaces final : public SurfaceOptics {
     [[nodiscard]] double eta_by_wave(double nm) const;
 
   private:
+    class BelowSheets;
+    /// The sheets at the place of the point, whose faces were found, as seen by its ray; the point
+    /// itself included, if it is one and `own`.
+    [[nodiscard]] std::vector<MaterialSample> sheets_at(const ShadingPoint& point,
+                                                        const Arrival& arrival, bool own) const;
+    /// Lays a completed point below sheets.
+    void lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const;
     /// True if a face is crossed together with that of the point.
     [[nodiscard]] bool is_joined(const ShadingPoint& point, const OtherFace& other) const;
     /// True if a face of a material bounds a volume.

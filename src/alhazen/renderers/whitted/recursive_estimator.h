@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "alhazen/cameras/eye_rays.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
@@ -19,6 +20,7 @@
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/renderers/direct_light/direct_light.h"
 #include "alhazen/renderers/volumes/exact_optics.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "alhazen/renderers/volumes/shadow_batch.h"
 #include "alhazen/renderers/volumes/touching_faces.h"
 #include "alhazen/renderers/whitted/wave_split.h"
@@ -100,23 +102,33 @@ class RecursiveEstimator {
             }
             shadows_.use(tinted_);
             if constexpr (TreeWatcher<Randomness>) random_.use(tinted_);
-            return;
+        } else {
+            optics_.emplace(scene_, conventions_.optics);
+            visible_.use(*optics_);
+            shadows_.use(*optics_);
+            if constexpr (TreeWatcher<Randomness>) random_.use(*optics_);
         }
-        optics_.emplace(scene_, conventions_.optics);
-        visible_.use(*optics_);
-        shadows_.use(*optics_);
-        if constexpr (TreeWatcher<Randomness>) random_.use(*optics_);
+        if (scene_.all_opaque) return;
+        finder_.emplace(scene_);
+        if (!finder_->has_volumes() || is_parallel()) return;
+        start_at(picture_plane(job.camera).eye, 0.0f, eye_path_);
     }
 
     /// Adds the radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
         prepare_eye_paths(rays.size());
         const std::span<Path> paths(eye_paths_);
+        const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
+        if (finder_ && finder_->has_volumes() && is_parallel()) {
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                start_at(rays[i].origin, paths[i].time, paths[i]);
+        }
         for (std::size_t i = 0; i < rays.size(); i += rays_at_once_) {
             const std::size_t count = std::min(rays_at_once_, rays.size() - i);
             trace_part(
                 {rays.subspan(i, count), paths.subspan(i, count), radiance.subspan(i, count)}, 0);
         }
+        optics_ ? optics_->release(media) : tinted_.release(media);
     }
 
     [[nodiscard]] Randomness& randomness() { return random_; }
@@ -129,6 +141,16 @@ class RecursiveEstimator {
   private:
     static constexpr bool kDrawsNothing = std::is_same_v<Randomness, NoRandomness>;
 
+    [[nodiscard]] bool is_parallel() const {
+        return std::holds_alternative<OrthographicCamera>(job_.camera);
+    }
+    /// Sets the medium of an eye ray that begins at the point.
+    void start_at(const Vec3& point, float time, RayMedium& medium) {
+        MediumStack volumes = finder_->around(point, time);
+        volumes.keep_seen_by(mask_of(RayKind::Eye));
+        medium = optics_ ? RayMedium{.medium = optics_->within(volumes)}
+                         : medium_within(scene_, volumes, tracks_media() ? &tinted_ : nullptr);
+    }
     /// Sets the paths of the next eye rays, which differ in few things from the last ones.
     void prepare_eye_paths(std::size_t count) {
         for (const std::uint32_t sample : gone_on_) eye_paths_[sample].cone = eye_path_.cone;
@@ -390,7 +412,7 @@ class RecursiveEstimator {
         } else {
             met.refracted = send_refracted(seen, contribution, seen.path.nm, front.next);
         }
-        if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
+        if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : point.sheets;
     }
 
     /// The path of the ray that met the surface, in the medium of a ray that leaves the surface
@@ -481,7 +503,7 @@ class RecursiveEstimator {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
-    const Path eye_path_;  ///< of every eye ray; as a local it is kept in pieces and copied slowly
+    Path eye_path_;  ///< of every eye ray; as a local it is kept in pieces and copied slowly
     const std::vector<Rgb> ambient_;
     std::vector<std::size_t> shadow_lights_;  ///< numbers of the lights with shadow rays
     std::span<Hit> eye_hits_;                 ///< see keep_hits
@@ -495,11 +517,12 @@ class RecursiveEstimator {
     std::optional<ExactOptics> optics_;      ///< if the scene has exact optics
     std::optional<TouchingFaces> touching_;  ///< if it has none, and not all is opaque
     TintedMedia tinted_;                     ///< if it has none
-    std::vector<Path> eye_paths_;            ///< [sample] of eye rays
-    std::deque<Path> paths_behind_;          ///< of surfaces whose light waits
-    Path* path_behind_ = nullptr;            ///< of the surface that is shaded; null: not needed
-    std::vector<std::uint32_t> gone_on_;     ///< eye rays with another cone than at their start
-    std::deque<Wavefront> fronts_;           ///< [depth]; references stay valid while it grows
+    std::optional<MediaFinder> finder_;   ///< of the volumes around the eye; if not all is opaque
+    std::vector<Path> eye_paths_;         ///< [sample] of eye rays
+    std::deque<Path> paths_behind_;       ///< of surfaces whose light waits
+    Path* path_behind_ = nullptr;         ///< of the surface that is shaded; null: not needed
+    std::vector<std::uint32_t> gone_on_;  ///< eye rays with another cone than at their start
+    std::deque<Wavefront> fronts_;        ///< [depth]; references stay valid while it grows
 };
 
 }  // namespace alhazen

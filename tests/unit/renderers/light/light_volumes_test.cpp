@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "support/light_pictures.h"
 #include "unit/renderers/light/glass_volumes.h"
 

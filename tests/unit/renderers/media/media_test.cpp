@@ -11,6 +11,7 @@
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/whitted/whitted.h"
+#include "support/light_pictures.h"
 #include "support/scene_maker.h"
 #include "unit/renderers/one_pixel.h"
 
@@ -313,6 +314,30 @@ TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
                                 (solid ? " solid" : ""),
                             kAll.size() - (solid ? 2 : 0));
             }
+        }
+    }
+}
+
+/// The eye looks down from z = 0 in an absorber that ends at z = -2, before a shining wall.
+TEST(Media, AnEyeInAVolumeSeesThroughIt) {
+    for (const bool parallel : {false, true}) {
+        for (const std::string renderer :
+             {"whitted", "distributed", "whitted:fresnel=on,beer=on", "path_tracing"}) {
+            testing::SceneMaker maker;
+            Camera& camera = maker.description().cameras[0].camera;
+            camera = look_along({0.3, 0.2, 0}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
+            if (parallel)
+                camera = look_along_parallel({0.3, 0.2, 0}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
+            Material absorber;
+            absorber.index.value = 1.0;
+            absorber.dielectric = Dielectric{{0.3, 0.1, 0}};
+            maker.add(BoxShape{{-4, -4, -2}, {4, 4, 2}}, maker.material(absorber));
+            maker.add(testing::rectangle({-4, -4, -3}, {8, 0, 0}, {0, 8, 0}),
+                      maker.material(testing::shining({1, 1, 1})));
+            const Rgb found = testing::picture_of(maker.compile(), renderer, 1, 1).at(0, 0);
+            EXPECT_NEAR(found.r, std::exp(-0.6), 1e-6) << renderer << parallel;
+            EXPECT_NEAR(found.g, std::exp(-0.2), 1e-6) << renderer << parallel;
+            EXPECT_NEAR(found.b, 1.0, 1e-6) << renderer << parallel;
         }
     }
 }

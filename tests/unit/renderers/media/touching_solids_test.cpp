@@ -158,5 +158,107 @@ TEST(TouchingSolids, ABlockOnAnOpaqueOneShowsIt) {
     }
 }
 
+/// A sheet that passes half of the light; the rest, or `metallic` of it, it reflects.
+Material sheet(double metallic, double transmission = 1.0) {
+    Material m;
+    m.index.value = 1.0;
+    MetallicRoughness& p = m.metallic_roughness.emplace();
+    p.base_color.color = {0.5, 0.5, 0.5};
+    p.metallic.value = metallic;
+    p.roughness.value = 0.0;
+    p.transmission.value = transmission;
+    return m;
+}
+
+/// A sheet at a height above something with its upper face at z = 1, before a shining wall; lit
+/// from the side.
+struct BelowSheet {
+    AnyShape shape;
+    Material material;
+    bool first = false;        ///< named before the sheet
+    Rgb beyond{0.25, 0.5, 1};  ///< radiance of the wall
+};
+Rgb seen_below(const BelowSheet& below, const Material& on, double height,
+               const std::string& renderer, int sheets = 1) {
+    SceneMaker maker;
+    maker.description().conventions.shading.max_depth = 12;
+    maker.light(DirectionalLight{{0.6, 0, 0.8}, {1.25, 1.25, 1.25}});
+    if (below.first) maker.add(below.shape, maker.material(below.material));
+    for (int i = 1; i <= sheets; ++i) {
+        const double z = 1 + i * height;
+        maker.add(rectangle({-4, -4, z}, {8, 0, 0}, {0, 8, 0}), maker.material(on));
+    }
+    if (!below.first) maker.add(below.shape, maker.material(below.material));
+    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}),
+              maker.material(shining(below.beyond)));
+    return color_of(maker, renderer);
+}
+
+void expect_as_apart(const BelowSheet& below, const Material& on, const std::string& renderer,
+                     double within, int sheets = 1) {
+    const Rgb together = seen_below(below, on, 0, renderer, sheets);
+    const Rgb apart = seen_below(below, on, 1e-5, renderer, sheets);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(together[i], apart[i], within) << renderer << below.first << i;
+    }
+    EXPECT_GT(together.b, 0.01);
+}
+
+TEST(TouchingSolids, AVolumeBelowASheetIsCrossedWithIt) {
+    const BoxShape block{{-4, -4, 0}, {4, 4, 1}};
+    for (const bool first : {false, true}) {
+        for (const std::string renderer :
+             {"whitted", "distributed", "whitted:fresnel=on,beer=on", "path_tracing"}) {
+            const Rgb found = seen_below({block, glass(1, 0.7), first}, sheet(0), 0, renderer);
+            EXPECT_NEAR(found.r, 0.125 * std::exp(-0.7), 1e-6) << renderer << first;
+            EXPECT_NEAR(found.b, 0.5, 1e-6) << renderer << first;
+        }
+        for (const std::string renderer :
+             {"whitted", "distributed", "whitted:fresnel=on,beer=on"}) {
+            for (const double metallic : {0.0, 0.5}) {
+                expect_as_apart({block, glass(1.5, 0.7), first}, sheet(metallic), renderer, 2e-3);
+            }
+        }
+    }
+}
+
+/// The light of the matt face passes the sheet twice.
+TEST(TouchingSolids, AnOpaqueFaceBelowASheetIsSeenThroughIt) {
+    const AnyShape block = BoxShape{{-4, -4, 0}, {4, 4, 1}};
+    const AnyShape card = rectangle({-4, -4, 1}, {8, 0, 0}, {0, 8, 0});
+    for (const AnyShape& shape : {block, card}) {
+        for (const std::string renderer :
+             {"whitted", "distributed", "whitted:fresnel=on,beer=on", "path_tracing"}) {
+            const Rgb found =
+                seen_below({shape, matt({0.8, 0.4, 0.2}), false, {}}, sheet(0), 0, renderer);
+            EXPECT_NEAR(found.r, 0.2, 1e-6) << renderer;
+            EXPECT_NEAR(found.g, 0.1, 1e-6) << renderer;
+            EXPECT_NEAR(found.b, 0.05, 1e-6) << renderer;
+            if (renderer == "path_tracing") continue;
+            expect_as_apart({shape, shining({0.5, 1, 2})}, sheet(0), renderer, 1e-6);
+            expect_as_apart({shape, matt({0.8, 0.4, 0.2})}, sheet(0, 0.5), renderer, 1e-6);
+        }
+    }
+}
+
+TEST(TouchingSolids, SheetsAtOnePlaceAreAllPassed) {
+    const AnyShape floor = rectangle({-4, -4, -1}, {8, 0, 0}, {0, 8, 0});
+    for (const std::string renderer :
+         {"whitted", "distributed", "whitted:fresnel=on,beer=on", "path_tracing"}) {
+        expect_as_apart({floor, shining({0.5, 1, 2})}, sheet(0), renderer, 1e-6, 2);
+        if (renderer == "path_tracing") continue;
+        expect_as_apart({floor, shining({0.5, 1, 2})}, sheet(0.5, 0.5), renderer, 2e-3, 3);
+    }
+}
+
+/// Half of what the sheet does not pass is matt.
+TEST(TouchingSolids, ASheetThatScattersOnGlassKeepsTheGlass) {
+    const BoxShape block{{-4, -4, 0}, {4, 4, 1}};
+    for (const bool first : {false, true}) {
+        expect_as_apart({block, glass(1.5, 0.7), first}, sheet(0.5, 0.5),
+                        "whitted:fresnel=on,beer=on", 5e-3);
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,8 +10,8 @@
 
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
-#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "support/image_texture.h"
 #include "support/light_pictures.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 #include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

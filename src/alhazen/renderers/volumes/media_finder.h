@@ -9,6 +9,7 @@
 /// contain both rays, and boundaries farther away than 1e8 times the radius of the bounded
 /// geometry.
 
+#include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
 #include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/scene/scene.h"
@@ -50,5 +51,10 @@ class MediaFinder {
     Vec3 center_;  ///< of a sphere around all bounded geometry
     double radius_ = 1;
 };
+
+/// The medium of a ray of Whitted's equation that begins within volumes. Where kt acts by distance,
+/// in the bodies of such materials too, the eye is outside of them. `media`: as of medium_behind.
+[[nodiscard]] RayMedium medium_within(const Scene& scene, const MediumStack& volumes,
+                                      TintedMedia* media);
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/volumes/media_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,6 +199,23 @@ MediaFinder::Found MediaFinder::along(const Vec3& direction, const Vec3& point, 
     Crossings crossings(*this, ray, end, time);
     crossings.cross(hits);
     return crossings.found();
+}
+
+RayMedium medium_within(const Scene& scene, const MediumStack& volumes, TintedMedia* media) {
+    RayMedium result;
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const Medium& volume = volumes[i];
+        const Material& m = scene.materials[volume.material];
+        if (!m.dielectric && !m.metallic_roughness) continue;
+        result.inside = true;
+        result.hidden = (volume.seen_by & mask_of(RayKind::Shadow)) == 0;
+        result.absorption = volume.absorption;
+        if (media == nullptr) continue;
+        result.medium = media->enter({1, 1, 1}, volume.absorption, {volume.part, volume.material},
+                                     result.medium);
+        if (result.hidden) media->hide(result.medium);
+    }
+    return result;
 }
 
 }  // namespace alhazen
