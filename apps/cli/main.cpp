@@ -87,9 +87,22 @@ std::vector<std::string> arguments_from_last(int argc, char** argv) {
 }
 
 /// The message for a wrong command line. That of CLI11 for a repeated option counts values, and
-/// that for a value of another kind does not say of which.
+/// that for a value of another kind does not say of which. Switches of other programs get a hint.
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
     std::string text = CLI::FailureMessage::simple(app, error);
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+        // Switches of the programs for .ray files.
+        constexpr std::pair<std::string_view, std::string_view> kKnown[] = {
+            {" -w", "; the size of a picture is --size WIDTHxHEIGHT"},
+            {" -r", "; the depth of recursion is --depth N"},
+        };
+        for (const auto& [name, hint] : kKnown) {
+            const std::string line = text.substr(0, text.find('\n')) + " ";
+            if (line.find(std::string(name) + " ") == std::string::npos) continue;
+            text.insert(line.size() - 1, hint);
+        }
+        return text;
+    }
     constexpr std::string_view kOther = "Could not convert: ";
     if (text.starts_with(kOther)) {
         const std::size_t value = text.find(" = ");

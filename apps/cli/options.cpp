@@ -331,6 +331,12 @@ BuildOptions AcceleratorArguments::build_options() const {
     if (!chooses_build()) {
         options.quality = find_build_quality(build_quality, takes_auto_build ? "auto" : "");
     }
+    if (width > 16) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--width {}: nodes of the accelerator have 4, 8 or 16 children; "
+                                "the size of a picture is --size",
+                                width));
+    }
     check_node_width(width);
     options.width = width;
     if (compact) options.leaves = Leaves::Indices;

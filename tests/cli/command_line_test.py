@@ -75,6 +75,16 @@ class CommandLine(CommandLineCase):
                       self.render("--shutter", "0,1", "--shutter", "0,2").stderr)
         self.assertIn("--shutter '0,1,2': expected OPEN,CLOSE, two finite times", self.render("--shutter", "0,1,2").stderr)
 
+    def test_switches_of_the_programs_for_ray_files_get_a_hint(self):
+        width, depth = self.render("-w", "512"), self.render("-r", "5")
+        self.assertEqual((width.returncode, depth.returncode), (2, 2))
+        self.assertIn("not expected: 512 -w; the size of a picture is --size WIDTHxHEIGHT\n", width.stderr)
+        self.assertIn("not expected: 5 -r; the depth of recursion is --depth N\n", depth.stderr)
+        self.assertNotIn("--depth", width.stderr)
+        self.assertNotIn("is --", self.render("--wide").stderr)
+        self.assertIn("--width 512: nodes of the accelerator have 4, 8 or 16 children; the size of a picture is --size",
+                      self.render("--width", "512").stderr)
+
     def test_the_limit_of_the_terms_of_a_polynomial_is_told(self):
         start = "alhazen 1\nalgebraic { clip_box = ((-1, -1, -1), (1, 1, 1)); expression = "
         self.assertEqual(run("info", self.write("f.alhazen", start + '"1e149*(x^2+y^2-1)" }\n')).returncode, 0)

@@ -1,5 +1,9 @@
 #include "alhazen/base/diagnostics.h"
 
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "alhazen/base/control_characters.h"
@@ -36,15 +40,27 @@ void Diagnostics::throw_if_warnings() const {
 
 void Diagnostics::throw_all(Severity severity, std::size_t count) const {
     if (count == 0) return;
-    std::string text;
-    std::size_t listed = 0;
+    std::vector<const Diagnostic*> found;
+    std::map<std::string_view, std::size_t> files;  // their order
     for (const Diagnostic& diagnostic : kept_) {
         if (diagnostic.severity != severity) continue;
-        if (!text.empty()) text += '\n';
-        text += to_string({Severity::Error, diagnostic.location, diagnostic.message});
-        ++listed;
+        found.push_back(&diagnostic);
+        files.emplace(diagnostic.location.file, files.size());
     }
-    if (listed < count) text += "\n(and " + std::to_string(count - listed) + " more errors)";
+    const auto place = [&](const Diagnostic* diagnostic) {
+        const FileLocation& at = diagnostic->location;
+        return std::tuple(files.at(at.file), at.line, at.column);
+    };
+    std::stable_sort(found.begin(), found.end(),
+                     [&](const Diagnostic* a, const Diagnostic* b) { return place(a) < place(b); });
+    std::string text;
+    for (const Diagnostic* diagnostic : found) {
+        if (!text.empty()) text += '\n';
+        text += to_string({Severity::Error, diagnostic->location, diagnostic->message});
+    }
+    if (found.size() < count) {
+        text += "\n(and " + std::to_string(count - found.size()) + " more errors)";
+    }
     throw Error(ErrorKind::Scene, text);
 }
 

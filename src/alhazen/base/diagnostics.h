@@ -42,7 +42,8 @@ class Diagnostics {
     void note_file(const std::filesystem::path& path) { files_.insert(path); }
     [[nodiscard]] const std::set<std::filesystem::path>& files() const { return files_; }
 
-    /// Throws `Error` (Scene) if there is any error; its message lists all errors, one per line.
+    /// Throws `Error` (Scene) if there is any error; its message lists all errors, one per line, in
+    /// the order of their lines.
     void throw_if_errors() const;
     /// Throws `Error` (Scene) if there is any warning; its message lists the warnings as errors.
     void throw_if_warnings() const;

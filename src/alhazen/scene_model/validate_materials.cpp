@@ -20,7 +20,7 @@ class Checker {
     void error(std::string message) { out_.error(where_, std::move(message)); }
 
     void material(const Material& m) {
-        name_ = m.name;
+        name_ = m.name.empty() ? "a material" : "material '" + m.name + "'";
         texture_id(m.emission.texture, "emission");
         numbers(m.emission.color, "emission");
         color(m.ambient, "ambient");
@@ -38,10 +38,10 @@ class Checker {
         const auto map = static_cast<std::size_t>(m.normal_map.texture);
         if (map < d_.textures.size() &&
             std::holds_alternative<SolidTexture>(d_.textures[map].texture)) {
-            error(fmt::format("the normal map of material '{}' is a solid texture", name_));
+            error(fmt::format("the normal map of {} is a solid texture", name_));
         }
         if (!std::isfinite(m.normal_map.scale)) {
-            error(fmt::format("scale of the normal map of material '{}' must be finite", name_));
+            error(fmt::format("scale of the normal map of {} must be finite", name_));
         }
         if (m.metallic_roughness) parameters(*m.metallic_roughness);
         if (m.conductor) {
@@ -51,7 +51,7 @@ class Checker {
         numbers(m.scattering.coefficient, "scattering");
         if (!(std::abs(m.scattering.anisotropy) < 1.0)) {
             error(
-                fmt::format("anisotropy of the scattering of material '{}' must be above -1 and "
+                fmt::format("anisotropy of the scattering of {} must be above -1 and "
                             "below 1",
                             name_));
         }
@@ -59,14 +59,14 @@ class Checker {
             numbers(m.dielectric->absorption, "absorption");
             if (m.index.value == 0.0) {
                 error(fmt::format("index of refraction of the dielectric '{}' must be above 0",
-                                  name_));
+                                  m.name));
             }
         }
         if (int(m.metallic_roughness.has_value()) + int(m.conductor.has_value()) +
                 int(m.dielectric.has_value()) >
             1) {
             error(
-                fmt::format("material '{}' may be only one of metallic-roughness, conductor and "
+                fmt::format("{} may be only one of metallic-roughness, conductor and "
                             "dielectric",
                             name_));
         }
@@ -79,12 +79,12 @@ class Checker {
         const auto warn = [&](const ColorInput& input, const char* what) {
             const Rgb& c = input.color;
             if (std::min({c.r, c.g, c.b}) < 0.0) {
-                out_.warning(where_, fmt::format("{} of material '{}' is negative; path tracing "
+                out_.warning(where_, fmt::format("{} of {} is negative; path tracing "
                                                  "takes 0",
                                                  what, name_));
             }
             if (c.max() > 1.0) {
-                out_.warning(where_, fmt::format("{} of material '{}' is above 1; path tracing "
+                out_.warning(where_, fmt::format("{} of {} is above 1; path tracing "
                                                  "scales it down",
                                                  what, name_));
             }
@@ -129,12 +129,12 @@ class Checker {
         not_negative(p.anisotropy.strength, "strength of the anisotropy");
         texture_id(p.anisotropy.texture, "anisotropy");
         if (!std::isfinite(p.anisotropy.rotation)) {
-            error(fmt::format("rotation of the anisotropy of material '{}' must be finite", name_));
+            error(fmt::format("rotation of the anisotropy of {} must be finite", name_));
         }
         not_negative(p.dispersion, "dispersion");
         if (!(p.attenuation_distance > 0.0)) {
-            error(fmt::format("attenuation distance of material '{}' must be positive, found {}",
-                              name_, p.attenuation_distance));
+            error(fmt::format("attenuation distance of {} must be positive, found {}", name_,
+                              p.attenuation_distance));
         }
     }
 
@@ -146,7 +146,7 @@ class Checker {
     void color(const ColorInput& input, const char* what) {
         texture_id(input.texture, what);
         if (!input.color.is_finite()) {
-            error(fmt::format("{} of material '{}' must be finite", what, name_));
+            error(fmt::format("{} of {} must be finite", what, name_));
         }
     }
     void scalar(const ScalarInput& input, const char* what) {
@@ -155,14 +155,14 @@ class Checker {
     }
     void not_negative(double value, const char* what) {
         if (std::isfinite(value) && value >= 0.0) return;
-        error(fmt::format("{} of material '{}' must be finite and not negative, found {}", what,
-                          name_, value));
+        error(
+            fmt::format("{} of {} must be finite and not negative, found {}", what, name_, value));
     }
 
     const SceneDescription& d_;
     FileLocation where_;
     Diagnostics& out_;
-    std::string name_;
+    std::string name_;  ///< "material 'x'"
 };
 
 void check(const std::string& name, const SolidTexture& solid, Checker& checker) {

@@ -45,6 +45,24 @@ TEST(Diagnostics, AllErrorsAreThrownAtOnce) {
     }
 }
 
+TEST(Diagnostics, ErrorsAreListedInTheOrderOfTheirLines) {
+    Diagnostics diagnostics;
+    diagnostics.error({"b.ray", 9, 1}, "late");
+    diagnostics.error({"a.ray", 1, 1}, "of another file");
+    diagnostics.error({"b.ray", 2, 5}, "right");
+    diagnostics.error({"b.ray", 2, 1}, "left");
+    diagnostics.error({"b.ray", 2, 5}, "right again");
+    try {
+        diagnostics.throw_if_errors();
+        FAIL() << "did not throw";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "b.ray:2:1: error: left\nb.ray:2:5: error: right\n"
+                     "b.ray:2:5: error: right again\nb.ray:9:1: error: late\n"
+                     "a.ray:1:1: error: of another file");
+    }
+}
+
 TEST(Diagnostics, AFloodIsCountedButNotKept) {
     Diagnostics diagnostics;
     for (int i = 0; i < 2500; ++i) diagnostics.error({}, "bad");

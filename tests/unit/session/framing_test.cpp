@@ -202,6 +202,34 @@ TEST(Framing, PlanesAreLeftOutOfTheBoxAlsoInsideInstances) {
     EXPECT_NEAR(box.hi.y, 1, 1e-9);
 }
 
+/// A patch of degree (2, 1), narrow where it is long: u goes along z = 2 u (1 - u) up to `length`.
+BezierPatch narrow_patch(double length) {
+    return {.degree_u = 2,
+            .degree_v = 1,
+            .points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {length, 0, 0}, {2, 1, 0}}};
+}
+
+TEST(SeenParts, PatchesReachAsFarAsTheirSurface) {
+    for (const double length : {2.0, 1e5}) {
+        SceneMaker maker;
+        maker.add(narrow_patch(length));
+        maker.add(narrow_patch(length), MaterialId{0}, Affine::translate({0, 0, 10}));
+        const Scene scene = maker.compile();
+        const SeenParts parts(*scene.aggregate);
+        const auto reach = [&](const Vec3& direction) {
+            const auto point = parts.farthest(direction, -1e300);
+            return point ? dot(direction, *point) : -kInfinity;
+        };
+        EXPECT_EQ(reach({1, 0, 0}), length);
+        EXPECT_EQ(reach({-1, 0, 0}), 0);
+        EXPECT_EQ(reach({0, 1, 0}), 1);
+        // The control points are at z = 11, the surface up to 2 u (1 - u) = 1/2 above 10.
+        EXPECT_NEAR(reach({0, 0, 1}), 10.5, 1e-6);
+        EXPECT_EQ(reach({0, 0, -1}), 0);
+        EXPECT_FALSE(parts.farthest({0, 0, 1}, 10.500001));
+    }
+}
+
 /// Gaps between what eye rays see and the sides of the picture, in shares of its width and height.
 Gaps seen_gaps(const Scene& scene, double aspect) {
     constexpr int kHeight = 250;

@@ -14,7 +14,7 @@ struct RayCamera {
     Vec3 eye;
     Mat3 axes;                    ///< right, up and backward; lengths and angles as in the file
     std::optional<Vec3> look_at;  ///< if the axes are towards it
-    Vec3 up{0, 1, 0};             ///< then: `updir`
+    std::optional<Vec3> up;       ///< then: `updir`, if given
     /// Where the file says so, if `look_at` is at the eye or along `up` from it.
     std::optional<FileLocation> without_axes;
     double height = 1;  ///< of the image at distance 1: 53.13 degrees

@@ -1,5 +1,7 @@
 #include "alhazen/formats/ray/ray_materials.h"
 
+#include <algorithm>
+
 #include "alhazen/formats/ray/ray_extensions.h"
 #include "alhazen/formats/text/first_names.h"
 
@@ -149,7 +151,12 @@ void RayMaterials::read_color(BlockReader& reader, std::string_view key, ColorIn
         if (const auto texture = read_map(*value, key)) out = {{1, 1, 1}, *texture};
     } else if (value->is(NodeKind::List)) {
         Rgb color;
-        if (reader.values().read(*value, key, color)) out = {color, kNoTexture};
+        if (!reader.values().read(*value, key, color)) return;
+        if (key == "emissive" && std::min({color.r, color.g, color.b}) < 0) {
+            reader.error(*value, "emissive must not be negative");
+        } else {
+            out = {color, kNoTexture};
+        }
     } else {
         reader.values().fail(*value, key, "a colour (r, g, b) or map(\"FILE\")");
     }
@@ -162,7 +169,11 @@ void RayMaterials::read_scalar(BlockReader& reader, std::string_view key, double
     if (value->is(NodeKind::Entry, "map")) {
         if (const auto texture = read_map(*value, key)) out = {map_scale, *texture};
     } else if (value->is(NodeKind::Number)) {
-        out = {value->number() * scale, kNoTexture};
+        if (value->number() >= 0) {
+            out = {value->number() * scale, kNoTexture};
+        } else {
+            reader.error(*value, std::string(key) + " must not be negative");
+        }
     } else {
         reader.values().fail(*value, key, "a number or map(\"FILE\")");
     }

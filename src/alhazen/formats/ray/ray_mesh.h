@@ -8,7 +8,8 @@
 namespace alhazen {
 
 /// Reads a mesh block: points, faces (fans around the first vertex), vertex normals and materials,
-/// gennormals. Adds it to the scene's meshes; none if the mesh is unusable.
+/// gennormals. Adds it to the scene's meshes; none if the mesh is unusable. The materials of the
+/// vertices start from `material`.
 std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
                                        RayMaterials& materials, const RayMaterial& material);
 

@@ -34,7 +34,18 @@ AnyShape read_cylinder(BlockReader& reader) {
 
 AnyShape read_cone(BlockReader& reader) {
     Cone cone;
-    reader.read("height", cone.top.z);
+    if (const auto height = reader.find("height")) {
+        double z = 0;
+        if (reader.values().read(*height, "height", z)) {
+            // A cone may point down.
+            if (std::abs(z) >= kMinLength && std::abs(z) <= kMaxCoordinate) {
+                cone.top.z = z;
+            } else {
+                reader.error(*height, "height must be a number other than 0, of a size from " +
+                                          std::string("1e-70 to 1e70"));
+            }
+        }
+    }
     reader.read("bottom_radius", cone.base_radius);
     reader.read("top_radius", cone.top_radius);
     reader.read("capped", cone.capped);
@@ -122,6 +133,19 @@ std::optional<Affine> read_affine(std::string_view name, TextNode list, const Ar
         return std::nullopt;
     }
     return Affine::rotate({v[0], v[1], v[2]}, v[3]);
+}
+
+/// From what the materials of a mesh's vertices start: in the token family the mesh's own, if that
+/// stands before them, else the one around the mesh; in the dictionary family no material.
+RayMaterial start_of_vertices(TextNode mesh, const RayMaterial& own, const RayMaterial& around,
+                              bool dictionary) {
+    if (dictionary) return {};
+    RayMaterial start = around;
+    for (const TextNode item : mesh) {
+        if (item.is(NodeKind::Pair, "materials")) return start;
+        if (item.is(NodeKind::Pair, "material")) start = own;
+    }
+    return start;
 }
 
 }  // namespace
@@ -234,7 +258,9 @@ void RayObjects::read_shape(TextNode entry, const Affine& object_from_part,
     part.object_from_part = object_from_part;
     part.location = entry.location();
     if (is_mesh(name)) {
-        const auto mesh = read_ray_mesh(reader, context_, materials_, own);
+        const auto mesh = read_ray_mesh(
+            reader, context_, materials_,
+            start_of_vertices(reader.block(), own, material, context_.family.dictionary));
         reader.finish(true);
         if (!mesh) return;
         part.what = *mesh;

@@ -6,6 +6,7 @@
 #include "alhazen/formats/ray/ray_extensions.h"
 #include "alhazen/formats/text/block_reader.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
 
@@ -24,24 +25,36 @@ bool has_direction(BlockReader& reader, std::string_view key, const Vec3& v) {
     return false;
 }
 
-/// The rotation of a unit quaternion, vector part first.
-Mat3 rotation(double x, double y, double z, double w) {
+/// The axes of a quaternion, vector part first, by the formula for unit quaternions: as in the
+/// original programs others give sheared axes.
+Mat3 axes_of_quaternion(double x, double y, double z, double w) {
     return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
+Mat3 axes_of(const Vec3& view, const Vec3& up) {
+    return {cross(up, -view), up, -view};
+}
+
 /// The axes of a camera that looks at its point `look_at`. Those of `camera` where there are none,
-/// which is an error unless a later block moves the camera.
-Mat3 axes_towards(BlockReader& reader, RayCamera& camera) {
-    const Vec3 view = *camera.look_at - camera.eye, right = cross(view, camera.up);
-    if (!has_direction(reader, "updir", camera.up)) return camera.axes;
-    if (!(length_squared(right) > 0)) {
-        camera.without_axes = reader.find("look_at").value_or(reader.block()).location();
-        return camera.axes;
+/// which is an error unless a later block moves the camera. As in the original programs `updir` is
+/// kept as written, and without one the axes are perpendicular.
+Mat3 axes_towards(BlockReader& reader, RayCamera& camera, bool normalise) {
+    const Vec3 view = unit_or(*camera.look_at - camera.eye, {});
+    Vec3 up;
+    if (camera.up) {
+        if (!has_direction(reader, "updir", *camera.up)) return camera.axes;
+        up = normalise ? normalize(*camera.up) : *camera.up;
+    } else if (view.x == 0 && view.z == 0) {
+        up = {1, 0, 0};
+    } else {
+        up = cross(normalize(cross(view, {0, 1, 0})), view);
     }
-    const Vec3 x = normalize(right), z = normalize(-view);
-    return {x, cross(z, x), z};
+    const Mat3 axes = axes_of(view, up);
+    if (length_squared(axes.x_axis) > 0) return axes;
+    camera.without_axes = reader.find("look_at").value_or(reader.block()).location();
+    return camera.axes;
 }
 
 /// The camera axes. As in the original programs, lengths and angles given in the file are kept;
@@ -53,13 +66,8 @@ Mat3 read_axes(BlockReader& reader, RayCamera& camera, bool normalise) {
     // The first is the spelling of the reference.
     const auto turn = reader.find("quaternian", "quaternion");
     if (turn && reader.values().read_numbers(*turn, "quaternion", 4, q)) {
-        const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-        if (norm > 0) {
-            axes = rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
-            camera.look_at.reset();
-        } else {
-            reader.error(*turn, "the quaternion must not be zero");
-        }
+        axes = axes_of_quaternion(q[0], q[1], q[2], q[3]);
+        camera.look_at.reset();
     }
     if (turn && (reader.has("viewdir") || reader.has("look_at"))) {
         reader.values().diagnostics.warning(
@@ -75,8 +83,8 @@ Mat3 read_axes(BlockReader& reader, RayCamera& camera, bool normalise) {
     Vec3 point, view, up;
     if (!reader.has("viewdir") && reader.read("look_at", point)) camera.look_at = point;
     if (camera.look_at) {
-        reader.read("updir", camera.up);
-        return axes_towards(reader, camera);
+        if (reader.read("updir", up)) camera.up = up;
+        return axes_towards(reader, camera, normalise);
     }
     const bool has_view = reader.read("viewdir", view), has_up = reader.read("updir", up);
     if (reader.has("viewdir") != reader.has("updir")) {
@@ -90,7 +98,7 @@ Mat3 read_axes(BlockReader& reader, RayCamera& camera, bool normalise) {
         view = normalize(view);
         up = normalize(up);
     }
-    return {cross(up, -view), up, -view};
+    return axes_of(view, up);
 }
 
 void refuse_lens(BlockReader& reader) {
@@ -112,18 +120,19 @@ void read_camera(TextNode entry, RayContext& context) {
     reader.read("position", own.eye);
     own.axes = read_axes(reader, own, context.family.dictionary);
     double aspect = 1, fov_deg = 0;
-    if (reader.read("aspectratio", aspect)) {
+    const auto ratio = reader.find("aspectratio"), fov = reader.find("fov");
+    if (ratio && reader.values().read(*ratio, "aspectratio", aspect)) {
         if (aspect > 0) {
             own.aspect = aspect;
         } else {
-            reader.error(reader.block(), "aspectratio must be greater than 0");
+            reader.error(*ratio, "aspectratio must be greater than 0");
         }
     }
-    if (reader.read("fov", fov_deg)) {
+    if (fov && reader.values().read(*fov, "fov", fov_deg)) {
         if (fov_deg > 0 && fov_deg < 180) {
             own.height = 2 * std::tan(0.5 * fov_deg * kRadiansPerDegree);
         } else {
-            reader.error(reader.block(), "fov must be between 0 and 180 degrees");
+            reader.error(*fov, "fov must be between 0 and 180 degrees");
         }
     }
     refuse_lens(reader);

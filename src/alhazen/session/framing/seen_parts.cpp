@@ -1,6 +1,7 @@
 #include "alhazen/session/framing/seen_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "alhazen/csg/solid_aggregate.h"
@@ -29,6 +30,98 @@ constexpr bool kHasTightExtent =
 bool has_tight_extent(const PrimitiveTable& table, std::uint32_t kind) {
     return with_column(table.columns, kind,
                        []<class S>(const ShapeColumn<S>&) { return kHasTightExtent<S>; });
+}
+
+/// Shapes that are all of the patches of their tree.
+template <class S>
+constexpr bool kIsPatches = std::is_same_v<S, BezierPatch> || std::is_same_v<S, PatchMesh>;
+
+bool is_patches(const PrimitiveTable& table, std::uint32_t kind) {
+    return with_column(table.columns, kind,
+                       []<class S>(const ShapeColumn<S>&) { return kIsPatches<S>; });
+}
+
+/// The farthest corner of the parts of patches. A part lies in the hull of its control points; the
+/// part that reaches farthest is halved until it reaches no farther than the best corner.
+std::optional<Vec3> farthest_of_patches(const PatchPieces& pieces, const Vec3& direction,
+                                        double least) {
+    // Reached only by patches that have nearly one height in much of their area.
+    constexpr std::size_t kMostParts = 8000;
+    constexpr double kPrecision = 1e-6;
+    struct Candidate {
+        double reach;
+        std::size_t part;  ///< a piece or, after those, one of the halves
+        bool operator<(const Candidate& other) const { return reach < other.reach; }
+    };
+    std::vector<BezierNet> halves;
+    std::vector<Candidate> candidates;
+    std::optional<Vec3> best;
+    double lowest = kInfinity;
+    const auto height = [&](const HomogeneousPoint& p) { return dot(direction, projected(p)); };
+    const auto consider = [&](const BezierView& net, std::size_t part) {
+        double reach = -kInfinity;
+        for (int k = 0; k < net.count(); ++k) {
+            reach = std::max(reach, height(net.points[k]));
+            lowest = std::min(lowest, height(net.points[k]));
+        }
+        if (!(reach > least)) return;
+        for (const int i : {0, net.degree_u}) {
+            for (const int j : {0, net.degree_v}) {
+                if (!(height(net.at(i, j)) > least)) continue;
+                best = projected(net.at(i, j));
+                least = height(net.at(i, j));
+            }
+        }
+        if (!(reach > least)) return;
+        candidates.push_back({reach, part});
+        std::push_heap(candidates.begin(), candidates.end());
+    };
+    for (std::size_t k = 0; k < pieces.size(); ++k) consider(pieces.net(k), k);
+    while (!candidates.empty() && halves.size() < kMostParts) {
+        const auto [reach, part] = candidates.front();
+        const double rounding = 1e-14 * std::max(std::abs(reach), std::abs(lowest));
+        if (!(reach - least > kPrecision * (reach - lowest) + rounding)) break;
+        std::pop_heap(candidates.begin(), candidates.end());
+        candidates.pop_back();
+        const BezierNet net =
+            part < pieces.size() ? pieces[part].net : halves[part - pieces.size()];
+        // Across the direction in which the height changes more.
+        double along_u = 0, along_v = 0;
+        for (int i = 0; i <= net.degree_u; ++i) {
+            for (int j = 0; j <= net.degree_v; ++j) {
+                const double here = height(net.at(i, j));
+                if (i > 0) along_u = std::max(along_u, std::abs(here - height(net.at(i - 1, j))));
+                if (j > 0) along_v = std::max(along_v, std::abs(here - height(net.at(i, j - 1))));
+            }
+        }
+        const auto [low, high] = along_u > along_v ? halved_u(net) : halved_v(net);
+        for (const BezierNet& half : {low, high}) {
+            halves.push_back(half);
+            consider(half, pieces.size() + halves.size() - 1);
+        }
+    }
+    return best;
+}
+
+/// The farthest point of a shape of patches.
+std::optional<Vec3> farthest_of_patches(const PrimitiveTable& table, std::uint32_t id,
+                                        const Vec3& direction, double least) {
+    const std::uint32_t kind = table.kind(PrimitiveId{id});
+    return with_column(
+        table.columns, kind, [&]<class S>(const ShapeColumn<S>& c) -> std::optional<Vec3> {
+            if constexpr (kIsPatches<S>) {
+                const std::uint32_t j = id - table.first(kind);
+                const PatchPieces& pieces = c.shapes[j].tree->pieces();
+                if (c.placements[j] == kNoPlacement) {
+                    return farthest_of_patches(pieces, direction, least);
+                }
+                const Affine& m = table.placements[c.placements[j]].outer_from_inner;
+                const auto inner = farthest_of_patches(pieces, transpose_times(m.linear, direction),
+                                                       least - dot(direction, m.translation));
+                if (inner) return m.point(*inner);
+            }
+            return {};
+        });
 }
 
 /// The largest dot(direction, p) over the box.
@@ -91,7 +184,9 @@ const SeenParts::Group* SeenParts::group_of(const Aggregate& aggregate) {
     }
     const PrimitiveTable& table = aggregate.primitives();
     for (std::uint32_t kind = 0; kind < kTriangleKind; ++kind) {
-        const Sort sort = has_tight_extent(table, kind) ? Sort::TightShape : Sort::OtherShape;
+        const Sort sort = has_tight_extent(table, kind) ? Sort::TightShape
+                          : is_patches(table, kind)     ? Sort::Patches
+                                                        : Sort::OtherShape;
         for (std::uint32_t i = table.first(kind); i < table.first(kind + 1); ++i) {
             if (table.is_seen(PrimitiveId{i}, kEyeRays)) {
                 add({table.box(i), i, 1, sort, nullptr}, group);
@@ -155,6 +250,8 @@ std::optional<Vec3> SeenParts::farthest_of(const Group& group, const Part& part,
             }
             break;
         }
+        case Sort::Patches:
+            return farthest_of_patches(table, part.first, direction, least);
         case Sort::Triangles:
             for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
                 const std::uint32_t id = table.first(kTriangleKind) + i;

@@ -2,7 +2,8 @@
 /// The outermost points of the parts that eye rays can see.
 ///
 /// Conventions: unbounded parts are left out, as are parts, instances and triangles that eye rays
-/// do not see. Corners of triangles are exact. Shapes whose `extent` is tight are exact to about a
+/// do not see. Corners of triangles are exact. Bezier patches are halved: exact to 1e-6 of their
+/// height. Shapes whose `extent` is tight are exact to about a
 /// millionth of their size. All others (CSG solids, blobs, clipped quadrics, ...) are found by
 /// rays: features thinner than 1/256 of the part may be missed.
 /// Complexity: the constructor visits all primitives. A query visits the parts whose boxes reach
@@ -29,7 +30,7 @@ class SeenParts {
     [[nodiscard]] std::optional<Vec3> farthest(const Vec3& direction, double least) const;
 
   private:
-    enum class Sort : std::uint8_t { TightShape, OtherShape, Triangles, Instance, Solid };
+    enum class Sort : std::uint8_t { TightShape, Patches, OtherShape, Triangles, Instance, Solid };
     struct Group;
     struct Part {
         Box3 box;             ///< in the frame of the group

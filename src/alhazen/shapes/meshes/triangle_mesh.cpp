@@ -30,6 +30,13 @@ void TriangleMesh::validate(const FileLocation& where, Diagnostics& diagnostics)
         if (is_finite(positions[i]) && max_component(abs(positions[i])) <= kMaxCoordinate) continue;
         checks.fail("position " + std::to_string(i) + " must be three finite numbers below 1e70");
     }
+    // Products of smaller lengths underflow.
+    Box3 extent;
+    for (const Vec3& position : positions) extent.include(position);
+    const double size = extent.empty() ? 0.0 : max_component(extent.size());
+    if (size > 0.0 && size < kMinLength) {
+        checks.fail("its extent must be zero or at least 1e-70, not " + shortest(size));
+    }
     for (std::size_t i = 0; i < normals.size(); ++i) {
         if (!is_finite(normals[i])) {
             checks.fail("normal " + std::to_string(i) + " must be three finite numbers");

@@ -143,6 +143,11 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedAccessor{"NegativeCount",
                         "{'bufferView': 0, 'componentType': 5126, 'count': -1, 'type': 'SCALAR'}",
                         "#/accessors/0/count: expected an integer from 1, found -1"},
+        RefusedAccessor{"LargeCount",
+                        "{'bufferView': 0, 'componentType': 5126, 'count': 9007199254740992, "
+                        "'type': 'SCALAR'}",
+                        "#/accessors/0/count: expected an integer from 1 to 9007199254740991, "
+                        "found 9007199254740992"},
         RefusedAccessor{"NoSuchView",
                         "{'bufferView': 7, 'componentType': 5126, 'count': 1, 'type': 'SCALAR'}",
                         "#/accessors/0/bufferView: there is no bufferView 7 (the file has 1)"},

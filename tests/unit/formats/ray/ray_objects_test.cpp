@@ -192,6 +192,41 @@ TEST(RayImporter, ReadsNormalsAndMaterialsAtTheVertices) {
     EXPECT_EQ(i.scene.materials[mesh.vertex_materials[1]].material.diffuse.color, (Rgb{0, 1, 0}));
 }
 
+/// The materials of the programs: the dictionary family starts from none, the token family from the
+/// mesh's own or, if that is written after them, from the one around it.
+TEST(RayImporter, MaterialsOfVerticesStartWhereTheFamilySays) {
+    const auto emission = [](const std::string& before, const std::string& items) {
+        const Imported i = import_ray(before + " trimesh { " + kSquareMesh + items + " }");
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        const TriangleMesh& mesh = *i.scene.meshes.at(0).mesh;
+        return i.scene.materials[mesh.vertex_materials.at(1)].material.emission.color;
+    };
+    const std::string each = "materials = ({},{ ambient = (0,0,0); },{},{});";
+    const std::string red = "material = { emissive = (.3,0,0); };";
+    const std::string named = "material { name = \"red\"; emissive = (.3,0,0); }";
+    EXPECT_EQ(emission(named, "material = \"red\"; " + each), (Rgb{}));
+    EXPECT_EQ(emission("", red + each), (Rgb{.3, 0, 0}));
+    const std::string around = "material = { emissive = (0,.2,0); }";
+    EXPECT_EQ(emission(around, red + each), (Rgb{.3, 0, 0}));
+    EXPECT_EQ(emission(around, each + red), (Rgb{0, .2, 0}));
+    EXPECT_EQ(emission(around, each), (Rgb{0, .2, 0}));
+}
+
+TEST(RayImporter, ReportsBadValuesOfObjectsOnceWhereTheyStand) {
+    Imported i = import_ray(
+        "cone {\n  height = 0; }\n"
+        "sphere { material = { emissive = (1,1,-1);\n  shininess = -5;\n  index = -1 } }");
+    validate(i.scene, i.diagnostics);
+    EXPECT_EQ(i.errors(), 4u) << i.messages();
+    EXPECT_TRUE(i.says("scene.ray:3:12: error: cone: height must be")) << i.messages();
+    EXPECT_TRUE(i.says("scene.ray:4:34: error: material: emissive must not be negative"))
+        << i.messages();
+    EXPECT_TRUE(i.says("scene.ray:5:15: error: material: shininess must not be negative"));
+    EXPECT_TRUE(i.says("scene.ray:6:11: error: material: index must not be negative"));
+    const Imported down = import_ray("cone { height = -2; }");
+    EXPECT_EQ(down.errors(), 0u) << down.messages();
+}
+
 TEST(RayImporter, ReportsEveryBadIndexOfAMesh) {
     const Imported i = import_ray(
         "trimesh { points = ((0,0,0),(1,0,0),(1,1,0));\n"

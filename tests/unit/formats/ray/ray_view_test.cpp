@@ -59,10 +59,11 @@ TEST(RayImporter, NormalisesTheCameraOfTheDictionaryFamilyOnly) {
 }
 
 TEST(RayImporter, TurnsTheCameraByAQuaternionInBothSpellings) {
-    const double s = std::sin(std::numbers::pi / 4);  // a quarter turn about y: -z becomes -x
+    // A quarter turn about y: -z becomes -x.
+    const std::string s = "0.70710678118654752";
     for (const char* key : {"quaternian", "quaternion"}) {
-        const Imported i = import_ray(std::string("camera { ") + key + " = (0," +
-                                      std::to_string(s) + ",0," + std::to_string(s) + ") }");
+        const Imported i =
+            import_ray(std::string("camera { ") + key + " = (0," + s + ",0," + s + ") }");
         EXPECT_EQ(i.errors(), 0u) << i.messages();
         const Vec3 look = std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).look;
         expect_near(look, {-1, 0, 0});
@@ -105,10 +106,53 @@ TEST(RayImporter, LooksAtAPoint) {
     const PerspectiveCamera turned =
         camera(import_ray("camera { position = (0,0,0); look_at = (0,9,9); updir = (0,0,2); }"));
     expect_near(turned.look, Vec3{0, 1, 1} / std::sqrt(2.0));
-    expect_near(turned.up, Vec3{0, -1, 1} / std::sqrt(2.0));
-    for (const char* bad : {"look_at = (0,0,0);", "look_at = (0,3,0);"}) {
+    expect_near(turned.up, {0, 0, 2});
+    for (const char* bad : {"look_at = (0,0,0);", "look_at = (0,3,0); updir = (0,1,0);"}) {
         EXPECT_TRUE(import_ray(std::string("camera { ") + bad + " }").says("look_at must not lie"));
     }
+}
+
+TEST(RayImporter, LooksAtAPointAsAlongItsDirectionWithUpdirAsWritten) {
+    const auto camera = [](const char* keys) {
+        const Imported i =
+            import_ray(std::string("camera { position = (0,3,4); ") + keys + " updir = (0,1,0); }");
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera);
+    };
+    const PerspectiveCamera at = camera("look_at = (0,0,0);");
+    const PerspectiveCamera along = camera("viewdir = (0,-.6,-.8);");
+    expect_near(at.look, along.look);
+    expect_near(at.up, along.up);
+    expect_near(at.right, along.right);
+    expect_near(at.right, {0.8, 0, 0});
+}
+
+TEST(RayImporter, LooksStraightUpOrDownWithXUp) {
+    for (const double y : {4.0, -4.0}) {
+        const Imported i =
+            import_ray("camera { position = (0," + std::to_string(y) + ",0); look_at = (0,0,0); }");
+        ASSERT_EQ(i.errors(), 0u) << i.messages();
+        const auto& c = std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera);
+        expect_near(c.look, {0, y > 0 ? -1.0 : 1.0, 0});
+        expect_near(c.up, {1, 0, 0});
+        expect_near(c.right, cross(c.look, c.up));
+    }
+}
+
+TEST(RayImporter, TakesQuaternionsAsWritten) {
+    // 1 - 2 (.35^2) = 0.755 and 2 (.35) (.9) = 0.63: not quite a rotation.
+    const Imported i = import_ray("camera { quaternian = (.35,0,0,.9); }");
+    const auto& c = std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera);
+    expect_near(c.look, {0, 0.63, -0.755});
+    expect_near(c.up, {0, 0.755, 0.63});
+    expect_near(c.right, {1, 0, 0});
+}
+
+TEST(RayImporter, ReportsBadValuesOfACameraWhereTheyStand) {
+    const Imported i = import_ray("camera {\n  fov = 190;\n  aspectratio = 0;\n}");
+    EXPECT_TRUE(i.says("scene.ray:3:9: error: camera: fov must be between 0 and 180 degrees"))
+        << i.messages();
+    EXPECT_TRUE(i.says("scene.ray:4:17: error: camera: aspectratio must be greater than 0"))
+        << i.messages();
 }
 
 TEST(RayImporter, APointToLookAtMayLieWhereTheEyeIsBeforeALaterBlockMovesIt) {
@@ -141,7 +185,7 @@ TEST(RayImporter, ACameraKeepsLookingAtItsPointWhereverALaterBlockMovesIt) {
     const PerspectiveCamera moved =
         look("camera { look_at = (3,0,4); updir = (0,0,2); } camera { position = (3,-5,4); }");
     expect_near(moved.look, {0, 1, 0});
-    expect_near(moved.up, {0, 0, 1});
+    expect_near(moved.up, {0, 0, 2});
     const PerspectiveCamera tilted =
         look("camera { look_at = (3,0,4); position = (3,0,9); } camera { updir = (1,0,0); }");
     expect_near(tilted.look, {0, 0, -1});

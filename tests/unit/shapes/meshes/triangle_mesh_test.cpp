@@ -271,6 +271,23 @@ TEST(TriangleMesh, BoundsHoldTheTriangles) {
     }
 }
 
+TEST(TriangleMesh, ExtentsWhoseProductsUnderflowAreReported) {
+    const auto errors = [](double scale, const Vec3& place) {
+        TriangleMesh mesh = sphere_mesh(0);
+        for (Vec3& position : mesh.positions) position = scale * position + place;
+        Diagnostics diagnostics;
+        mesh.validate({}, diagnostics);
+        return diagnostics.error_count();
+    };
+    EXPECT_EQ(errors(1e-69, {}), 0u);
+    EXPECT_EQ(errors(1e-71, {}), 1u);
+    EXPECT_EQ(errors(1e-110, {}), 1u);
+    EXPECT_EQ(errors(1e-310, {}), 1u);
+    // Degenerate meshes are valid.
+    EXPECT_EQ(errors(0, {}), 0u);
+    EXPECT_EQ(errors(1e-110, {1, 1, 1}), 0u);
+}
+
 TEST(TriangleMesh, BadArraysAreReported) {
     const auto errors = [](const TriangleMesh& mesh) {
         Diagnostics diagnostics;

@@ -227,7 +227,8 @@ std::optional<std::uint64_t> JsonObject::integer_at(const json& value, const Pla
     }
     if (n && *n >= lo && *n <= hi) return n;
     std::string message = "expected an integer from " + std::to_string(lo);
-    if (hi != kMaxInteger) message += " to " + std::to_string(hi);
+    const bool beyond = value.is_number() && value.get<double>() > static_cast<double>(kMaxInteger);
+    if (hi != kMaxInteger || beyond) message += " to " + std::to_string(hi);
     context_.error(place,
                    message + ", found " + (value.is_number() ? value.dump() : type_of(value)));
     return std::nullopt;
