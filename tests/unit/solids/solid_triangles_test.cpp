@@ -10,6 +10,7 @@
 #include "alhazen/geometry/polygon/merged_positions.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 #include "mesh_distance.h"
 #include "support/random.h"
@@ -463,6 +464,17 @@ TEST(SolidTriangles, OfKnifeEdgesAreNoDoubledSheets) {
         EXPECT_EQ(doubled(made), 0u);
         EXPECT_EQ(mesh_edges(made).crowded, 0u);
     }
+}
+
+TEST(SolidTriangles, AreTheSameForAnyNumberOfThreads) {
+    SceneMaker maker;
+    add_bored_box(maker);
+    TriangleMesh one, several;
+    ThreadLimit(1).run([&] { one = mesh_of(maker, 0.003); });
+    ThreadLimit(4).run([&] { several = mesh_of(maker, 0.003); });
+    EXPECT_EQ(one.triangles, several.triangles);
+    EXPECT_EQ(one.positions, several.positions);
+    EXPECT_EQ(one.normals, several.normals);
 }
 
 TEST(SolidTriangles, HaveALimitThatNamesALargerTolerance) {

@@ -6,6 +6,7 @@
 #include "alhazen/base/interruption.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/solids/triangles/cell_sheets.h"
 
 namespace alhazen {
@@ -24,6 +25,8 @@ constexpr double kMostLinesInPart = 1024, kMostLinesInParts = 65536;
 constexpr double kVertexBeyond = 0.5;
 /// Of so many faces that are not near, the distance of one is measured.
 constexpr std::size_t kFacesPerDistance = 64;
+/// Faces that are tested at once, and those of one task.
+constexpr std::size_t kFacesOfBlock = 4096, kGrain = 64;
 /// Distance of lines that are not edges of cells, in cells of the largest size.
 constexpr double kLineSpacing = 0.25;
 
@@ -37,7 +40,8 @@ Vec3 axis_vector(std::size_t axis) {
 
 SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings, double tolerance,
                            SolidCoordinates* coordinates)
-    : line_(solid),
+    : solid_(solid),
+      line_(solid),
       cell_(cell),
       unit_(std::ldexp(cell, -halvings)),
       limit_(0.5 * tolerance),
@@ -373,20 +377,56 @@ double SurfaceCells::badness(const Face& face, std::size_t first, const Vec3& no
 void SurfaceCells::test_faces() {
     distances_.clear();
     std::size_t count = 0;
-    for (Edge& edge : edges_) {
-        interruption_point();
-        const auto& cells = edge.at.cells;
-        if (edge.is_near || std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) {
-                return is_least(c) || is_asked_[c] != 0;
-            })) {
-            continue;
+    std::vector<std::uint32_t> tested;
+    for (std::size_t begin = 0; begin < edges_.size();) {
+        // Faces of cells that faces before have asked for need no test, block by block.
+        tested.clear();
+        for (; begin < edges_.size() && tested.size() < kFacesOfBlock; ++begin) {
+            const Edge& edge = edges_[begin];
+            const auto& cells = edge.at.cells;
+            if (edge.is_near || std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) {
+                    return is_least(c) || is_asked_[c] != 0;
+                })) {
+                continue;
+            }
+            tested.push_back(static_cast<std::uint32_t>(begin));
         }
-        const Face made = face(edge);
-        edge.is_near = is_face_near(edge, made);
-        if (edge.is_near) continue;
-        ask(edge.at);
-        if (count++ % kFacesPerDistance == 0) distances_.push_back(distance_of(made));
+        test_block(tested);
+        for (const std::uint32_t k : tested) {
+            if (edges_[k].is_near) continue;
+            ask(edges_[k].at);
+            if (count++ % kFacesPerDistance == 0) {
+                distances_.push_back(distance_of(face(edges_[k])));
+            }
+        }
     }
+}
+
+void SurfaceCells::test_block(const std::vector<std::uint32_t>& edges) {
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t k : edges) {
+        for (const std::uint32_t v : edges_[k].vertices) {
+            if (!vertices_[v].is_near) vertices.push_back(v);
+        }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    parallel_for(vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        SurfaceLine line(solid_);
+        for (; first < last; ++first) {
+            interruption_point();
+            Vertex& v = vertices_[vertices[first]];
+            v.is_near = line.is_near(v.point, v.normal, limit_);
+        }
+    });
+    parallel_for(edges.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        SurfaceLine line(solid_);
+        for (; first < last; ++first) {
+            interruption_point();
+            Edge& edge = edges_[edges[first]];
+            edge.is_near = is_face_near(edge, face(edge), line);
+        }
+    });
 }
 
 double SurfaceCells::distance_of(const Face& face) {
@@ -409,15 +449,16 @@ double SurfaceCells::larger_tolerance() const {
     return 2 * std::max(*std::max_element(distances_.begin(), distances_.end()), 2 * limit_);
 }
 
-bool SurfaceCells::is_face_near(const Edge& edge, const Face& face) {
+bool SurfaceCells::is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const {
     for (std::size_t k = 0; k < face.triangle_count(); ++k) {
         const std::array<std::uint32_t, 3> t = face.triangle(k);
-        if (!is_near(t) || !is_face_turned_out(edge, t)) return false;
+        if (!is_near(t, line) || !is_face_turned_out(edge, t, line)) return false;
     }
     return true;
 }
 
-bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t) {
+bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
+                                      SurfaceLine& line) const {
     const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
     const Vec3 normal = unit_or(cross(b - a, c - a), edge.met.normal);
     if (dot(normal, edge.met.normal) > 0.0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t k) {
@@ -425,27 +466,25 @@ bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::ui
         })) {
         return true;
     }
-    return line_.faces((a + b + c) / 3, normal, limit_);
+    return line.faces((a + b + c) / 3, normal, limit_);
 }
 
-bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& t) {
+bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const {
     const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
     const Vec3 normal = unit_or(cross(b - a, c - a), vertex(t[0]).normal);
     for (std::size_t k = 0; k < 3; ++k) {
-        Vertex& v = vertices_[t[k]];
-        if (!v.is_near && !line_.is_near(v.point, v.normal, limit_)) return false;
-        v.is_near = true;
+        if (!vertex(t[k]).is_near) return false;
         const std::uint32_t from = t[k], to = t[(k + 1) % 3];
         if (from > to) continue;
         for (const double share : {0.25, 0.5, 0.75}) {
-            if (!line_.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
+            if (!line.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
                 return false;
             }
         }
     }
-    return line_.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
-           line_.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
-           line_.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
+    return line.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
+           line.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
+           line.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
 }
 
 // ---- Lines that are not edges of cells.

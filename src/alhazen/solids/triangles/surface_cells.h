@@ -10,7 +10,8 @@
 /// surface, or a line meets what the cells do not show. What was tested and has not changed is not
 /// tested again.
 /// Conventions: the frame of the solid's scene. Lengths of the tree are in units of its smallest
-/// cells, whose faces need no test. Threads: used by one thread.
+/// cells, whose faces need no test. Threads: used by one thread; faces are tested by several, with
+/// the same result for any number.
 /// Complexity: O(cells that the surface passes through, or that boxes of parts overlap), in time,
 /// memory and lines.
 
@@ -120,15 +121,18 @@ class SurfaceCells {
     [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
     /// Asks for a division of cells whose faces are not near the surface.
     void test_faces();
-    bool is_face_near(const Edge& edge, const Face& face);
+    /// Tests the faces of edges, and their vertices, in parallel.
+    void test_block(const std::vector<std::uint32_t>& edges);
+    bool is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const;
     /// False if a triangle of a face is turned over: it faces away from the surface at the edge and
     /// at its corners, and from the surface near its middle.
-    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t);
+    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
+                            SurfaceLine& line) const;
     /// Largest distance of corners and middles of a face from the surface.
     double distance_of(const Face& face);
     /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
     /// between two vertices in one of the triangles beside it.
-    bool is_near(const std::array<std::uint32_t, 3>& t);
+    bool is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const;
 
     // ---- Lines that are not edges of cells.
     /// Asks for a division of cells that the surface seems not to pass through, in which the middle
@@ -140,6 +144,7 @@ class SurfaceCells {
     /// True if a cell of a tree that overlaps a box has a vertex.
     [[nodiscard]] bool any_vertex(std::uint32_t cell, const Box3& box) const;
 
+    const IsolatedSolid& solid_;
     SurfaceLine line_;
     double cell_, unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
     Box3 box_;
