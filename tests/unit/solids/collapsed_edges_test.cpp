@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "alhazen/geometry/polygon/merged_positions.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 #include "mesh_distance.h"
@@ -70,7 +71,7 @@ std::map<std::uint32_t, double> area_of_materials(const TriangleMesh& mesh) {
 TEST(CollapsedEdges, LeaveACubeItsTwelveTriangles) {
     for (const int n : {2, 7, 16}) {
         TriangleMesh mesh = cube(n, one, none);
-        collapse_edges(mesh, 1e-3, 1);
+        collapse_edges(mesh, merged_positions(mesh.positions), 1e-3, 1);
         EXPECT_EQ(mesh.triangles.size(), 12u);
         EXPECT_TRUE(mesh_edges(mesh).oriented());
         EXPECT_NEAR(signed_volume(mesh), 8, 1e-12);
@@ -88,7 +89,7 @@ TEST(CollapsedEdges, KeepTheLinesBetweenMaterials) {
     // Straight lines.
     TriangleMesh halves = cube(
         8, [](const Vec3& p) { return p.x > 0 ? 1u : 0u; }, none);
-    collapse_edges(halves, 1e-3, 1);
+    collapse_edges(halves, merged_positions(halves.positions), 1e-3, 1);
     EXPECT_LE(halves.triangles.size(), 24u);
     EXPECT_NEAR(area_of_materials(halves)[1], 12, 1e-12);
     // A stair along a circle on each of two faces: flat, so that heights bound nothing.
@@ -99,7 +100,7 @@ TEST(CollapsedEdges, KeepTheLinesBetweenMaterials) {
     const double area = area_of_materials(fine).at(1);
     for (const double distance : {0.01, 0.05}) {
         TriangleMesh mesh = fine;
-        collapse_edges(mesh, distance, 1);
+        collapse_edges(mesh, merged_positions(mesh.positions), distance, 1);
         EXPECT_LT(mesh.triangles.size(), distance == 0.01 ? 3000u : 300u);
         EXPECT_NEAR(area_of_materials(mesh).at(1), area, 2 * 5.6 * distance);
         EXPECT_TRUE(mesh_edges(mesh).oriented());
@@ -114,7 +115,7 @@ TEST(CollapsedEdges, ChangeTextureCoordinatesByNoMoreThanGiven) {
     const double own = 0.25 / (0.25 * kSquares * kSquares) * 1.6;
     for (const double most : {0.01, 0.1}) {
         TriangleMesh mesh = fine;
-        collapse_edges(mesh, 1e-3, most);
+        collapse_edges(mesh, merged_positions(mesh.positions), 1e-3, most);
         EXPECT_LT(mesh.triangles.size(), fine.triangles.size() / 2);
         Random random(5);
         for (const auto& t : mesh.triangles) {
@@ -155,7 +156,7 @@ TEST(CollapsedEdges, KeepTheirDistanceInBothDirections) {
         }
         for (const double distance : {0.01, 0.05}) {
             TriangleMesh mesh = fine;
-            collapse_edges(mesh, distance, 1);
+            collapse_edges(mesh, merged_positions(mesh.positions), distance, 1);
             EXPECT_LT(mesh.triangles.size(), fine.triangles.size());
             EXPECT_TRUE(mesh_edges(mesh).oriented());
             EXPECT_LE(testing::largest_distance(mesh, fine, 1), distance) << round;
@@ -177,7 +178,7 @@ TEST(CollapsedEdges, LeaveWhatTouchesItselfClosed) {
         for (const auto& [a, b, c] : second.triangles) {
             mesh.triangles.push_back({first + a, first + b, first + c});
         }
-        collapse_edges(mesh, 1e-3, 1);
+        collapse_edges(mesh, merged_positions(mesh.positions), 1e-3, 1);
         EXPECT_TRUE(mesh.closed());
         EXPECT_LT(mesh.triangles.size(), 60u);
         EXPECT_NEAR(signed_volume(mesh), 16, 1e-12);

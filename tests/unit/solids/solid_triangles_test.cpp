@@ -7,11 +7,14 @@
 
 #include <set>
 
+#include "alhazen/geometry/polygon/merged_positions.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 #include "mesh_distance.h"
 #include "support/random.h"
+#include "support/random_profiles.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -427,6 +430,51 @@ TEST(SolidTriangles, AreNotTurnedOverBesideSharpEdges) {
         // Less than a side of one of the smallest cells, which are not tested.
         EXPECT_LE(area_turned_over(solid, mesh, tolerance), tolerance * tolerance / 12) << round;
     }
+}
+
+/// The number of triangles on the same three positions as one before them.
+std::size_t doubled(const TriangleMesh& mesh) {
+    const std::vector<std::uint32_t> first = merged_positions(mesh.positions);
+    std::set<std::set<std::uint32_t>> seen;
+    for (const auto& t : mesh.triangles) seen.insert({first[t[0]], first[t[1]], first[t[2]]});
+    return mesh.triangles.size() - seen.size();
+}
+
+TEST(SolidTriangles, OfKnifeEdgesAreNoDoubledSheets) {
+    for (const double tolerance : {0.03, 0.01}) {
+        SceneMaker maker;
+        Prism prism;
+        testing::add_polygon(prism.profile, {{1, 0.2}, {-0.5, 0.8}, {-0.7, -0.8}});
+        prism.h1 = 0.2;
+        prism.top_scale = 0;
+        maker.add(prism);
+        const TriangleMesh pyramid = mesh_of(maker, tolerance);
+        EXPECT_EQ(doubled(pyramid), 0u);
+        EXPECT_EQ(mesh_edges(pyramid).crowded, 0u);
+        // Along its rim the part that is thinner than the tolerance may be missing.
+        EXPECT_NEAR(volume_of(pyramid), 1.26 * 0.2 / 3, 6.3 * tolerance * tolerance);
+
+        SceneMaker lens_maker;
+        const ObjectIndex lens = lens_maker.object("lens");
+        lens_maker.description().objects.back().combine = Combine::Intersection;
+        lens_maker.add(Sphere{.center = {0, 0, -1.7}, .radius = 2}, {}, {}, lens);
+        lens_maker.add(Sphere{.center = {0, 0, 1.7}, .radius = 2}, {}, {}, lens);
+        lens_maker.add(lens);
+        const TriangleMesh made = mesh_of(lens_maker, tolerance);
+        EXPECT_EQ(doubled(made), 0u);
+        EXPECT_EQ(mesh_edges(made).crowded, 0u);
+    }
+}
+
+TEST(SolidTriangles, AreTheSameForAnyNumberOfThreads) {
+    SceneMaker maker;
+    add_bored_box(maker);
+    TriangleMesh one, several;
+    ThreadLimit(1).run([&] { one = mesh_of(maker, 0.003); });
+    ThreadLimit(4).run([&] { several = mesh_of(maker, 0.003); });
+    EXPECT_EQ(one.triangles, several.triangles);
+    EXPECT_EQ(one.positions, several.positions);
+    EXPECT_EQ(one.normals, several.normals);
 }
 
 TEST(SolidTriangles, HaveALimitThatNamesALargerTolerance) {

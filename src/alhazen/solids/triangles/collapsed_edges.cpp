@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/base/interruption.h"
-#include "alhazen/geometry/polygon/merged_positions.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -81,8 +81,8 @@ struct Collapse {
 
 class EdgeCollapser {
   public:
-    EdgeCollapser(TriangleMesh& mesh, double coordinates)
-        : mesh_(mesh), most_uv_(coordinates), point_of_(merged_positions(mesh.positions)) {
+    EdgeCollapser(TriangleMesh& mesh, std::vector<std::uint32_t> points, double coordinates)
+        : mesh_(mesh), most_uv_(coordinates), point_of_(std::move(points)) {
         heads_.assign(mesh.positions.size(), kNone);
         marks_.assign(mesh.positions.size(), 0);
         busy_.assign(mesh.positions.size(), 0);
@@ -96,6 +96,16 @@ class EdgeCollapser {
             const auto number = static_cast<std::uint32_t>(triangles_.size());
             triangles_.push_back({{point_of_[t[0]], point_of_[t[1]], point_of_[t[2]]}, t});
             for (std::uint32_t k = 0; k < 3; ++k) link(3 * number + k);
+        }
+    }
+
+    /// Collapses edges without length, which keep every point and the vertices of triangles.
+    void drop_empty() {
+        for (std::uint32_t p = 0; p < heads_.size(); ++p) {
+            for (std::uint32_t c = heads_[p]; c != kNone; c = next_[c]) {
+                const std::uint32_t q = triangles_[c / 3].points[(c % 3 + 1) % 3];
+                if (at(p) == at(q) && drop_empty(p, q)) break;
+            }
         }
     }
 
@@ -152,6 +162,20 @@ class EdgeCollapser {
     }
 
   private:
+    /// Moves a position to an equal one beside it, if that keeps the topology.
+    bool drop_empty(std::uint32_t position, std::uint32_t end) {
+        if (!find_star(position)) return false;
+        std::size_t spoke = 0;
+        while (star_[spoke].point != end) ++spoke;
+        if (!keeps_topology(spoke)) return false;
+        best_ = {spoke, 0, 0, 1, {}};
+        for (std::size_t k = spoke + 1; k + 1 < spoke + star_.size(); ++k) {
+            best_.corners.push_back(star_[k].own);
+        }
+        collapse();
+        return true;
+    }
+
     // ---- Corners of triangles, 3 * triangle + k, in a list for each position.
     void link(std::uint32_t corner) {
         std::uint32_t& head = heads_[triangles_[corner / 3].points[corner % 3]];
@@ -480,7 +504,7 @@ class EdgeCollapser {
     TriangleMesh& mesh_;
     double most_ = 0, most_uv_;
     bool has_uvs_ = false;
-    std::vector<std::uint32_t> point_of_;  ///< [vertex] the first vertex of that position
+    std::vector<std::uint32_t> point_of_;  ///< [vertex] the first vertex at its point
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> heads_;  ///< [position] its first corner
     std::vector<std::uint32_t> next_;   ///< [corner]
@@ -497,9 +521,11 @@ class EdgeCollapser {
 
 }  // namespace
 
-void collapse_edges(TriangleMesh& mesh, double distance, double coordinates) {
+void collapse_edges(TriangleMesh& mesh, std::vector<std::uint32_t> points, double distance,
+                    double coordinates) {
     if (mesh.triangles.empty()) return;
-    EdgeCollapser collapser(mesh, coordinates);
+    EdgeCollapser collapser(mesh, std::move(points), coordinates);
+    collapser.drop_empty();
     // What is flat first, then in steps, so that the bound is used evenly.
     for (const double share : {1e-6, 1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0}) {
         collapser.run(share * distance);

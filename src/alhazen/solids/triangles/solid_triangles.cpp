@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "alhazen/solids/solid_coordinates.h"
@@ -22,18 +23,21 @@ class SurfaceMesh {
 
     void make() {
         numbers_.assign(cells_.vertex_count(), kNone);
-        for (const SurfaceCells::Edge& edge : cells_.edges()) {
-            for (const std::uint32_t c : edge.at.cells) {
-                std::uint32_t& number = numbers_[cells_.vertex_number(c)];
+        for (const SurfaceEdge& edge : cells_.edges()) {
+            for (const std::uint32_t vertex : edge.vertices) {
+                std::uint32_t& number = numbers_[vertex];
                 if (number != kNone) continue;
                 number = static_cast<std::uint32_t>(mesh_.positions.size());
-                const SurfaceCells::Vertex& v = cells_.vertex(c);
+                const SurfaceVertex& v = cells_.vertex(vertex);
                 add_vertex(v.point, v.normal, v.material);
+                points_.push_back(number);
                 is_edge_.push_back(!v.smooth);
             }
         }
-        for (const SurfaceCells::Edge& edge : cells_.edges()) add_face(edge);
+        for (const SurfaceEdge& edge : cells_.edges()) add_face(edge);
     }
+    /// [vertex of the mesh] the first vertex at its point.
+    [[nodiscard]] std::vector<std::uint32_t> take_points() { return std::move(points_); }
 
   private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -44,26 +48,20 @@ class SurfaceMesh {
         mesh_.uvs.push_back({0, 0});
         mesh_.vertex_materials.push_back(material);
     }
-    void add_face(const SurfaceCells::Edge& edge) {
-        const SurfaceCells::Face made = cells_.face(edge);
+    void add_face(const SurfaceEdge& edge) {
+        const SurfaceFace made = cells_.face(edge);
         std::array<std::uint32_t, 4> corners{};
         for (std::size_t k = 0; k < made.count; ++k) {
-            corners[k] = corner(numbers_[cells_.vertex_number(made.cells[k])], edge.met);
+            corners[k] = corner(numbers_[made.vertices[k]], edge.met);
         }
         for (std::size_t k = 0; k < made.triangle_count(); ++k) {
             const auto& t = made.triangles[k];
-            add_triangle({corners[t[0]], corners[t[1]], corners[t[2]]});
+            mesh_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
         }
     }
-    void add_triangle(const std::array<std::uint32_t, 3>& t) {
-        const auto& p = mesh_.positions;
-        // A triangle with two equal corners has no area and is left out.
-        if (p[t[0]] == p[t[1]] || p[t[1]] == p[t[2]] || p[t[2]] == p[t[0]]) return;
-        mesh_.triangles.push_back(t);
-    }
-    /// The vertex of a cell for a face: a copy if the surface has an edge, another material or
+    /// The vertex of a sheet for a face: a copy if the surface has an edge, another material or
     /// other texture coordinates there.
-    std::uint32_t corner(std::uint32_t own, const SurfaceCells::Crossing& met) {
+    std::uint32_t corner(std::uint32_t own, const SurfaceCrossing& met) {
         const bool edge = is_edge_[own];
         const bool fits = !edge && mesh_.vertex_materials[own] == met.material;
         if (!coordinates_) return fits ? own : copy(own, met);
@@ -75,12 +73,13 @@ class SurfaceMesh {
         }
         return coordinates_->vertex(own, met.place, uv, mesh_, [&] { return copy(own, met); });
     }
-    std::uint32_t copy(std::uint32_t own, const SurfaceCells::Crossing& met) {
+    std::uint32_t copy(std::uint32_t own, const SurfaceCrossing& met) {
         const bool edge = is_edge_[own];
         const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
         const Vec3 point = mesh_.positions[own];
         add_vertex(point, edge ? met.normal : mesh_.normals[own], met.material);
         is_edge_.push_back(edge);
+        points_.push_back(points_[own]);
         return next;
     }
 
@@ -89,6 +88,7 @@ class SurfaceMesh {
     TriangleMesh& mesh_;
     std::vector<std::uint32_t> numbers_;  ///< [vertex of the cells] that of the mesh
     std::vector<bool> is_edge_;           ///< [vertex of the mesh]
+    std::vector<std::uint32_t> points_;   ///< [vertex of the mesh]
 };
 
 }  // namespace
@@ -107,6 +107,7 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
     while (std::ldexp(cell, -halvings) > smallest) {
         if (++halvings > kMostHalvings) return false;
     }
+    std::vector<std::uint32_t> points;
     {
         // Cells and coordinates are freed before triangles are merged.
         std::optional<SolidCoordinates> coordinates;
@@ -118,10 +119,12 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
             return false;
         }
         if (report != nullptr) report->lost_parts = cells.lost_parts();
-        SurfaceMesh(cells, places, mesh).make();
+        SurfaceMesh made(cells, places, mesh);
+        made.make();
+        points = made.take_points();
     }
     constexpr double kCoordinates = 1.0 / 512;
-    collapse_edges(mesh, 0.5 * tolerance, kCoordinates);
+    collapse_edges(mesh, std::move(points), 0.5 * tolerance, kCoordinates);
     return true;
 }
 

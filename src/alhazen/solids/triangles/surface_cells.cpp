@@ -6,6 +6,8 @@
 #include "alhazen/base/interruption.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/solids/triangles/cell_sheets.h"
 
 namespace alhazen {
 
@@ -18,13 +20,13 @@ constexpr std::uint32_t kRootCells = 32;
 constexpr double kMostOfPart = 4096, kMostOfParts = 262144, kLeastOfPart = 8;
 /// The largest number of lines along an axis through a part, and through all that have several.
 constexpr double kMostLinesInPart = 1024, kMostLinesInParts = 65536;
-/// Cosine of the largest angle of normals in a cell without an edge.
-constexpr double kSmoothCosine = 0.8;
 /// How far from its cell a vertex may be, in cells, where triangles are tested: an edge of the
 /// surface beside a cell is met.
 constexpr double kVertexBeyond = 0.5;
 /// Of so many faces that are not near, the distance of one is measured.
 constexpr std::size_t kFacesPerDistance = 64;
+/// Faces that are tested at once, and those of one task.
+constexpr std::size_t kFacesOfBlock = 4096, kGrain = 64;
 /// Distance of lines that are not edges of cells, in cells of the largest size.
 constexpr double kLineSpacing = 0.25;
 
@@ -34,37 +36,12 @@ Vec3 axis_vector(std::size_t axis) {
     return along;
 }
 
-/// The point nearest to the tangent planes at the crossings, weakly drawn to their mean, clamped to
-/// a box.
-Vec3 feature_point(std::span<const SurfaceCells::Crossing> crossings, const Vec3& lo,
-                   const Vec3& hi) {
-    constexpr double kDraw = 0.02;
-    const double share = 1.0 / static_cast<double>(crossings.size());
-    Vec3 point;
-    for (const SurfaceCells::Crossing& c : crossings) point = point + share * c.point;
-    Mat3 sum{{kDraw, 0, 0}, {0, kDraw, 0}, {0, 0, kDraw}};
-    for (const SurfaceCells::Crossing& c : crossings) {
-        sum.x_axis = sum.x_axis + share * c.normal.x * c.normal;
-        sum.y_axis = sum.y_axis + share * c.normal.y * c.normal;
-        sum.z_axis = sum.z_axis + share * c.normal.z * c.normal;
-    }
-    const Mat3 solve = inverse(sum);
-    for (int round = 0; round < 4; ++round) {
-        Vec3 offset;
-        for (const SurfaceCells::Crossing& c : crossings) {
-            offset = offset + share * dot(c.normal, c.point - point) * c.normal;
-        }
-        point = point + solve * offset;
-    }
-    for (int k = 0; k < 3; ++k) point[k] = std::clamp(point[k], lo[k], hi[k]);
-    return point;
-}
-
 }  // namespace
 
 SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings, double tolerance,
                            SolidCoordinates* coordinates)
-    : line_(solid),
+    : solid_(solid),
+      line_(solid),
       cell_(cell),
       unit_(std::ldexp(cell, -halvings)),
       limit_(0.5 * tolerance),
@@ -309,7 +286,7 @@ SurfaceCells::Crossing SurfaceCells::find_crossing(const CellTree::Edge& edge, b
     return {inner, normalize(along), 0, {}};
 }
 
-// ---- A vertex for each cell that the surface passes through.
+// ---- A vertex for each sheet of the surface in a cell.
 void SurfaceCells::place_vertices() {
     struct Use {
         std::uint32_t cell, edge;
@@ -325,63 +302,74 @@ void SurfaceCells::place_vertices() {
     std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.edge < b.edge;
     });
+    CellSheets sheets(tree_, edges_);
+    std::vector<std::uint32_t> own;
     for (std::size_t k = 0; k < uses.size();) {
         const std::uint32_t cell = uses[k].cell;
-        crossings_.clear();
-        std::uint32_t least = tree_[cell].size;
+        own.clear();
         for (; k < uses.size() && uses[k].cell == cell; ++k) {
-            if (k > 0 && uses[k - 1].cell == cell && uses[k - 1].edge == uses[k].edge) continue;
-            const Edge& edge = edges_[uses[k].edge];
-            crossings_.push_back(edge.met);
-            least = std::min(least, edge.at.length);
+            if (own.empty() || own.back() != uses[k].edge) own.push_back(uses[k].edge);
         }
-        if (vertex_of_[cell] == kNone) {
-            vertex_of_[cell] = static_cast<std::uint32_t>(vertices_.size());
-            vertices_.emplace_back();
+        const std::size_t count = sheets.find(cell, own);
+        for (std::uint32_t sheet = 0; sheet < count; ++sheet) {
+            place_vertex(cell, own, sheets, sheet);
         }
-        vertices_[vertex_of_[cell]] = make_vertex(tree_[cell], least);
     }
 }
 
-SurfaceCells::Vertex SurfaceCells::make_vertex(const CellTree::Cell& cell,
-                                               std::uint32_t least) const {
-    const double beyond = cell.size == 1 ? 0.0 : kVertexBeyond * unit_ * least;
-    const double size = unit_ * cell.size + beyond;
-    const Vec3 lo = position(cell.at);
-    Vertex made;
-    made.point =
-        feature_point(crossings_, lo - Vec3{beyond, beyond, beyond}, lo + Vec3{size, size, size});
-    Vec3 sum;
-    for (const Crossing& c : crossings_) sum = sum + c.normal;
-    made.normal = unit_or(sum, crossings_[0].normal);
-    made.material = crossings_[0].material;
-    made.smooth = std::all_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
-        return dot(c.normal, made.normal) > kSmoothCosine;
-    });
-    return made;
+void SurfaceCells::place_vertex(std::uint32_t cell, std::span<const std::uint32_t> uses,
+                                const CellSheets& sheets, std::uint32_t sheet) {
+    // The vertices of other sheets are new in each round.
+    std::uint32_t number = sheet == 0 ? vertex_of_[cell] : kNone;
+    if (number == kNone) {
+        number = static_cast<std::uint32_t>(vertices_.size());
+        vertices_.emplace_back();
+    }
+    if (sheet == 0) vertex_of_[cell] = number;
+    crossings_.clear();
+    std::uint32_t least = tree_[cell].size;
+    for (std::size_t use = 0; use < uses.size(); ++use) {
+        if (sheets.sheet(use) != sheet) continue;
+        Edge& edge = edges_[uses[use]];
+        crossings_.push_back(edge.met);
+        least = std::min(least, edge.at.length);
+        for (std::size_t side = 0; side < 4; ++side) {
+            if (edge.at.cells[side] == cell) edge.vertices[side] = number;
+        }
+    }
+    const double beyond = is_least(cell) ? 0.0 : kVertexBeyond * unit_ * least;
+    const double size = unit_ * tree_[cell].size + beyond;
+    const Vec3 lo = position(tree_[cell].at);
+    vertices_[number] = make_vertex(crossings_, crossings_.size() == uses.size(),
+                                    lo - Vec3{beyond, beyond, beyond}, lo + Vec3{size, size, size});
 }
 
 // ---- Faces: a polygon of three or four vertices around each edge that the surface crosses.
 SurfaceCells::Face SurfaceCells::face(const Edge& edge) const {
     Face made;
-    const std::array<std::size_t, 4> ring = edge.leaves ? std::array<std::size_t, 4>{0, 1, 3, 2}
-                                                        : std::array<std::size_t, 4>{0, 2, 3, 1};
-    for (const std::size_t side : ring) {
-        const std::uint32_t c = edge.at.cells[side];
-        if (made.count > 0 && made.cells[made.count - 1] == c) continue;
-        made.cells[made.count++] = c;
+    const std::array<std::size_t, 4> ring = edge.ring();
+    std::array<bool, 4> is_small{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t cell = edge.at.cells[ring[k]];
+        // A cell on two sides is one corner.
+        if (cell == edge.at.cells[ring[(k + 3) % 4]]) continue;
+        is_small[made.count] = tree_[cell].size == edge.at.length;
+        made.vertices[made.count++] = edge.vertices[ring[k]];
     }
-    if (made.cells[0] == made.cells[made.count - 1]) --made.count;
     std::size_t s = 0;
     if (made.count == 4) {
-        s = badness(made, 1, edge.met.normal) < badness(made, 0, edge.met.normal) ? 1 : 0;
+        // Larger cells may be opposite at other edges too: a diagonal between them could be twice.
+        const bool first = is_small[0] || is_small[2], second = is_small[1] || is_small[3];
+        const bool is_better =
+            badness(made, 1, edge.met.normal) < badness(made, 0, edge.met.normal);
+        s = first && second ? (is_better ? 1 : 0) : (second ? 1 : 0);
     }
     made.triangles = {{{s, s + 1, s + 2}, {s, s + 2, (s + 3) % 4}}};
     return made;
 }
 
 double SurfaceCells::badness(const Face& face, std::size_t first, const Vec3& normal) const {
-    const auto p = [&](std::size_t k) { return point(face.cells[(first + k) % 4]); };
+    const auto p = [&](std::size_t k) { return vertices_[face.vertices[(first + k) % 4]].point; };
     const Vec3 one = cross(p(1) - p(0), p(2) - p(0)), two = cross(p(2) - p(0), p(3) - p(0));
     return -std::min(dot(unit_or(one, normal), normal), dot(unit_or(two, normal), normal));
 }
@@ -389,29 +377,64 @@ double SurfaceCells::badness(const Face& face, std::size_t first, const Vec3& no
 void SurfaceCells::test_faces() {
     distances_.clear();
     std::size_t count = 0;
-    for (Edge& edge : edges_) {
-        interruption_point();
-        const auto& cells = edge.at.cells;
-        if (edge.is_near || std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) {
-                return is_least(c) || is_asked_[c] != 0;
-            })) {
-            continue;
+    std::vector<std::uint32_t> tested;
+    for (std::size_t begin = 0; begin < edges_.size();) {
+        // Faces of cells that faces before have asked for need no test, block by block.
+        tested.clear();
+        for (; begin < edges_.size() && tested.size() < kFacesOfBlock; ++begin) {
+            const Edge& edge = edges_[begin];
+            const auto& cells = edge.at.cells;
+            if (edge.is_near || std::all_of(cells.begin(), cells.end(), [&](std::uint32_t c) {
+                    return is_least(c) || is_asked_[c] != 0;
+                })) {
+                continue;
+            }
+            tested.push_back(static_cast<std::uint32_t>(begin));
         }
-        const Face made = face(edge);
-        edge.is_near = is_face_near(edge, made);
-        if (edge.is_near) continue;
-        ask(edge.at);
-        if (count++ % kFacesPerDistance == 0) distances_.push_back(distance_of(made));
+        test_block(tested);
+        for (const std::uint32_t k : tested) {
+            if (edges_[k].is_near) continue;
+            ask(edges_[k].at);
+            if (count++ % kFacesPerDistance == 0) {
+                distances_.push_back(distance_of(face(edges_[k])));
+            }
+        }
     }
+}
+
+void SurfaceCells::test_block(const std::vector<std::uint32_t>& edges) {
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t k : edges) {
+        for (const std::uint32_t v : edges_[k].vertices) {
+            if (!vertices_[v].is_near) vertices.push_back(v);
+        }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    parallel_for(vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        SurfaceLine line(solid_);
+        for (; first < last; ++first) {
+            interruption_point();
+            Vertex& v = vertices_[vertices[first]];
+            v.is_near = line.is_near(v.point, v.normal, limit_);
+        }
+    });
+    parallel_for(edges.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        SurfaceLine line(solid_);
+        for (; first < last; ++first) {
+            interruption_point();
+            Edge& edge = edges_[edges[first]];
+            edge.is_near = is_face_near(edge, face(edge), line);
+        }
+    });
 }
 
 double SurfaceCells::distance_of(const Face& face) {
     double most = 0;
     for (std::size_t k = 0; k < face.triangle_count(); ++k) {
-        const auto& t = face.triangles[k];
-        const Vec3 a = point(face.cells[t[0]]), b = point(face.cells[t[1]]);
-        const Vec3 c = point(face.cells[t[2]]);
-        const Vec3 normal = unit_or(cross(b - a, c - a), vertex(face.cells[t[0]]).normal);
+        const auto t = face.triangle(k);
+        const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
+        const Vec3 normal = unit_or(cross(b - a, c - a), vertex(t[0]).normal);
         const Vec3 middle = (a + b + c) / 3;
         for (const Vec3& p : {middle, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), a, b, c}) {
             const double distance = line_.distance(p, normal, 2 * cell_);
@@ -426,44 +449,42 @@ double SurfaceCells::larger_tolerance() const {
     return 2 * std::max(*std::max_element(distances_.begin(), distances_.end()), 2 * limit_);
 }
 
-bool SurfaceCells::is_face_near(const Edge& edge, const Face& face) {
+bool SurfaceCells::is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const {
     for (std::size_t k = 0; k < face.triangle_count(); ++k) {
-        std::array<std::uint32_t, 3> cells{};
-        for (std::size_t i = 0; i < 3; ++i) cells[i] = face.cells[face.triangles[k][i]];
-        if (!is_near(cells) || !is_face_turned_out(edge, cells)) return false;
+        const std::array<std::uint32_t, 3> t = face.triangle(k);
+        if (!is_near(t, line) || !is_face_turned_out(edge, t, line)) return false;
     }
     return true;
 }
 
-bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells) {
-    const Vec3 a = point(cells[0]), b = point(cells[1]), c = point(cells[2]);
+bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
+                                      SurfaceLine& line) const {
+    const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
     const Vec3 normal = unit_or(cross(b - a, c - a), edge.met.normal);
-    if (dot(normal, edge.met.normal) > 0.0 &&
-        std::all_of(cells.begin(), cells.end(),
-                    [&](std::uint32_t k) { return dot(normal, vertex(k).normal) > 0.0; })) {
+    if (dot(normal, edge.met.normal) > 0.0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t k) {
+            return dot(normal, vertex(k).normal) > 0.0;
+        })) {
         return true;
     }
-    return line_.faces((a + b + c) / 3, normal, limit_);
+    return line.faces((a + b + c) / 3, normal, limit_);
 }
 
-bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& cells) {
-    const Vec3 a = point(cells[0]), b = point(cells[1]), c = point(cells[2]);
-    const Vec3 normal = unit_or(cross(b - a, c - a), vertex(cells[0]).normal);
+bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const {
+    const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
+    const Vec3 normal = unit_or(cross(b - a, c - a), vertex(t[0]).normal);
     for (std::size_t k = 0; k < 3; ++k) {
-        Vertex& v = vertices_[vertex_of_[cells[k]]];
-        if (!v.is_near && !line_.is_near(v.point, v.normal, limit_)) return false;
-        v.is_near = true;
-        const std::uint32_t from = cells[k], to = cells[(k + 1) % 3];
+        if (!vertex(t[k]).is_near) return false;
+        const std::uint32_t from = t[k], to = t[(k + 1) % 3];
         if (from > to) continue;
         for (const double share : {0.25, 0.5, 0.75}) {
-            if (!line_.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
+            if (!line.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
                 return false;
             }
         }
     }
-    return line_.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
-           line_.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
-           line_.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
+    return line.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
+           line.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
+           line.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
 }
 
 // ---- Lines that are not edges of cells.

@@ -3,13 +3,15 @@
 ///
 /// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002: one
 /// vertex per cell that the surface passes through, nearest to the tangent planes at its crossings
-/// with the cell's edges; one polygon around each edge that the surface crosses.
-/// Differs: no function is sampled. The spans of lines along z tell which corners are inside;
+/// with the cell's edges; one polygon around each edge that the surface crosses. Differs: a cell
+/// has a vertex for each sheet of the surface in it (cell_sheets.h).
+/// No function is sampled. The spans of lines along z tell which corners are inside;
 /// crossings and normals are exact. Cells are divided, not merged: where a face is not near the
 /// surface, or a line meets what the cells do not show. What was tested and has not changed is not
 /// tested again.
 /// Conventions: the frame of the solid's scene. Lengths of the tree are in units of its smallest
-/// cells, whose faces need no test. Threads: used by one thread.
+/// cells, whose faces need no test. Threads: used by one thread; faces are tested by several, with
+/// the same result for any number.
 /// Complexity: O(cells that the surface passes through, or that boxes of parts overlap), in time,
 /// memory and lines.
 
@@ -19,42 +21,19 @@
 #include <unordered_map>
 #include <vector>
 
-#include "alhazen/solids/solid_coordinates.h"
-#include "alhazen/solids/triangles/cell_tree.h"
+#include "alhazen/solids/triangles/surface_faces.h"
 #include "alhazen/solids/triangles/surface_line.h"
 
 namespace alhazen {
 
+class CellSheets;
+
 class SurfaceCells {
   public:
-    /// A crossing of the surface with an edge.
-    struct Crossing {
-        Vec3 point, normal;
-        std::uint32_t material = 0;
-        SolidCoordinates::Place place;  ///< where the surface has its texture coordinates
-    };
-    /// An edge of the tree that the surface crosses.
-    struct Edge {
-        CellTree::Edge at;
-        Crossing met;
-        bool leaves = false;  ///< the solid is left along the axis
-        bool is_near = false;
-    };
-    /// The vertex of a cell that the surface passes through.
-    struct Vertex {
-        Vec3 point, normal;
-        std::uint32_t material = 0;
-        bool smooth = true, is_near = false;
-    };
-    /// The polygon of three or four vertices around an edge.
-    struct Face {
-        std::array<std::uint32_t, 4> cells{};  ///< counterclockwise from outside
-        std::size_t count = 0;
-        /// The triangles, as places of `cells`.
-        std::array<std::array<std::size_t, 3>, 2> triangles{};
-
-        [[nodiscard]] std::size_t triangle_count() const { return count - 2; }
-    };
+    using Crossing = SurfaceCrossing;
+    using Edge = SurfaceEdge;
+    using Vertex = SurfaceVertex;
+    using Face = SurfaceFace;
 
     /// The largest cells that the surface may pass have the size `cell`, the smallest 2^-`halvings`
     /// of it. `coordinates`: gets the places of crossings, unless null. The solid and they must
@@ -74,12 +53,8 @@ class SurfaceCells {
 
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] Face face(const Edge& edge) const;
-    /// The number of a cell's vertex, below `vertex_count`. Precondition: the surface passes
-    /// through the cell.
-    [[nodiscard]] std::uint32_t vertex_number(std::uint32_t cell) const { return vertex_of_[cell]; }
-    [[nodiscard]] const Vertex& vertex(std::uint32_t cell) const {
-        return vertices_[vertex_of_[cell]];
-    }
+    [[nodiscard]] const Vertex& vertex(std::uint32_t number) const { return vertices_[number]; }
+    /// Some are of no face.
     [[nodiscard]] std::size_t vertex_count() const { return vertices_.size(); }
 
   private:
@@ -98,7 +73,7 @@ class SurfaceCells {
         return origin_ + unit_ * Vec3{double(n[0]), double(n[1]), double(n[2])};
     }
     [[nodiscard]] bool is_least(std::uint32_t cell) const { return tree_[cell].size == 1; }
-    [[nodiscard]] const Vec3& point(std::uint32_t cell) const { return vertex(cell).point; }
+    [[nodiscard]] const Vec3& point(std::uint32_t number) const { return vertices_[number].point; }
 
     // ---- Division.
     /// Divides cells that a box overlaps until none exceeds a size.
@@ -137,8 +112,8 @@ class SurfaceCells {
 
     // ---- Vertices, of cells whose crossings have changed.
     void place_vertices();
-    /// The vertex of a cell with `crossings_`, the shortest on an edge of length `least`.
-    [[nodiscard]] Vertex make_vertex(const CellTree::Cell& cell, std::uint32_t least) const;
+    void place_vertex(std::uint32_t cell, std::span<const std::uint32_t> uses,
+                      const CellSheets& sheets, std::uint32_t sheet);
 
     // ---- Tests of faces.
     /// Deviation of the two triangles beside a diagonal from the surface normal: the negated least
@@ -146,15 +121,18 @@ class SurfaceCells {
     [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
     /// Asks for a division of cells whose faces are not near the surface.
     void test_faces();
-    bool is_face_near(const Edge& edge, const Face& face);
+    /// Tests the faces of edges, and their vertices, in parallel.
+    void test_block(const std::vector<std::uint32_t>& edges);
+    bool is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const;
     /// False if a triangle of a face is turned over: it faces away from the surface at the edge and
     /// at its corners, and from the surface near its middle.
-    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& cells);
+    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
+                            SurfaceLine& line) const;
     /// Largest distance of corners and middles of a face from the surface.
     double distance_of(const Face& face);
     /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
-    /// between two cells in one of the triangles beside it.
-    bool is_near(const std::array<std::uint32_t, 3>& cells);
+    /// between two vertices in one of the triangles beside it.
+    bool is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const;
 
     // ---- Lines that are not edges of cells.
     /// Asks for a division of cells that the surface seems not to pass through, in which the middle
@@ -166,6 +144,7 @@ class SurfaceCells {
     /// True if a cell of a tree that overlaps a box has a vertex.
     [[nodiscard]] bool any_vertex(std::uint32_t cell, const Box3& box) const;
 
+    const IsolatedSolid& solid_;
     SurfaceLine line_;
     double cell_, unit_, limit_, spacing_;  ///< `limit_`: half the tolerance
     Box3 box_;
@@ -174,7 +153,7 @@ class SurfaceCells {
     SolidCoordinates* coordinates_;
     std::vector<Edge> edges_;
     std::vector<Vertex> vertices_;
-    std::vector<std::uint32_t> vertex_of_;             ///< [cell]
+    std::vector<std::uint32_t> vertex_of_;             ///< [cell] that of its first sheet
     std::vector<std::uint8_t> is_changed_, is_asked_;  ///< [cell]
     std::vector<std::uint32_t> asked_;                 ///< cells to divide
     std::vector<Part> parts_;                          ///< of lines, to be found in the cells
@@ -185,7 +164,7 @@ class SurfaceCells {
     };
     std::vector<ThinPoint> thin_points_;  ///< where `start_at` was false, part by part
     std::vector<double> distances_;       ///< of some faces of the last test that are not near
-    std::vector<Crossing> crossings_;     ///< of one cell
+    std::vector<Crossing> crossings_;     ///< of one sheet
     /// Of lines along each axis, the range of `ends_`.
     std::array<std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>>, 3> lines_;
     std::vector<double> ends_;
