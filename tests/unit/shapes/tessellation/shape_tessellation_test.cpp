@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <set>
 
+#include "alhazen/shapes/meshes/mesh_edges.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "support/odd_even_area.h"
@@ -393,6 +395,25 @@ TEST(ShapeTessellation, FacesOfAPolyhedronInEitherOrderTurnOutward) {
     const TriangleMesh mesh = mesh_of(solid, 0.1);
     EXPECT_NEAR(signed_volume(mesh), 8.0 / 6, 1e-12);
     check_uvs(solid, 1e-9);
+}
+
+TEST(ShapeTessellation, AConeThatEndsInAnEdgeHasNoCapThere) {
+    for (const Vec3& d : {Vec3{0, 0, 0}, Vec3{0.3, 0, 0}}) {
+        Tgc cone;
+        cone.axis_d = d;
+        cone.prepare();
+        std::vector<BezierPiece> pieces;
+        append_pieces(cone, pieces);
+        std::set<std::uint32_t> parts;
+        for (const BezierPiece& piece : pieces) parts.insert(piece.part);
+        EXPECT_EQ(parts, (std::set<std::uint32_t>{0, 5}));
+    }
+    // The edge is then one of the mesh: of two triangles, not of four.
+    Tgc wedge;
+    wedge.axis_d = {0, 0, 0};
+    const TriangleMesh mesh = mesh_of(wedge, 0.01);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_EQ(mesh_edges(mesh).crowded, 0u);
 }
 
 TEST(ShapeTessellation, ALatheHasTheOutsideAndTheTextureCoordinatesOfItsProfile) {
