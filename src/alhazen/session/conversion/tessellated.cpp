@@ -236,7 +236,9 @@ class Tessellation {
         const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
         if (solids.count() != 1) return "bounds no volume";
         const IsolatedSolid solid(solids, SolidId{0});
-        if (!solid.box().empty() && !solid.box().bounded()) return "is endless";
+        if (!solid.box().empty() && !solid.box().bounded()) {
+            return "has no bounded box; if it is bounded, intersect it with a box";
+        }
         const std::uint64_t most = max_triangles_ - report_.triangles;
         const bool made = make_solid_triangles(solid, tolerance, most, mesh, with_uvs);
         return made ? "" : kTooManyTriangles;
