@@ -1,11 +1,14 @@
 #include "alhazen/csg/csg_solid.h"
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "alhazen/base/error.h"
 #include "alhazen/csg/crossing_memo.h"
 #include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/math/unit_vector.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/primitives/unused_shear.h"
 
@@ -32,6 +35,27 @@ void add_materials(const Aggregate& aggregate, std::set<MaterialId>& all) {
     for (const Instance& instance : table.instances) add_materials(*instance.aggregate, all);
 }
 
+/// The plane of a half space in the frame of the table; nothing for other primitives.
+std::optional<OrientedPlane> half_space_of(const PrimitiveTable& table, PrimitiveId id) {
+    const std::uint32_t kind = table.kind(id);
+    if (kind >= kTriangleKind) return std::nullopt;
+    return with_column(table.columns, kind, [&](const auto& column) {
+        using Shape = typename ShapeOfColumn<decltype(column)>::Type;
+        std::optional<OrientedPlane> plane;
+        if constexpr (std::is_same_v<Shape, HalfSpace>) {
+            const HalfSpace& shape =
+                column.shapes[static_cast<std::uint32_t>(id) - table.first(kind)];
+            plane = OrientedPlane{shape.point, shape.face.unit_normal};
+            if (const Placement* placed = table.placement_of(id)) {
+                plane->point = placed->outer_from_inner.point(plane->point);
+                plane->normal = transpose_times(placed->inner_from_outer.linear, plane->normal);
+            }
+            plane->normal = unit_or(plane->normal, {0, 0, 1});
+        }
+        return plane;
+    });
+}
+
 }  // namespace
 
 CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
@@ -44,7 +68,10 @@ CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
     std::vector<Box3> boxes;
     boxes.reserve(leaf_count());
     for (std::uint32_t i = 0; i < leaf_count(); ++i) boxes.push_back(leaf_box(i));
-    tree_ = CsgTree(expression_, boxes);
+    std::vector<std::optional<OrientedPlane>> planes;
+    planes.reserve(leaf_count());
+    for (const PrimitiveId id : expression_.leaves) planes.push_back(half_space_of(table_, id));
+    tree_ = CsgTree(expression_, boxes, planes);
     for (const Instance& instance : table_.instances) {
         solids_.push_back(dynamic_cast<const SolidAggregate*>(instance.aggregate.get()));
     }

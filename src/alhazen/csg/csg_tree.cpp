@@ -1,8 +1,11 @@
 #include "alhazen/csg/csg_tree.h"
 
-#include "alhazen/math/constants.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include <limits>
+#include "alhazen/math/constants.h"
+#include "alhazen/shapes/polygons/polyhedron.h"
 
 namespace alhazen {
 
@@ -10,6 +13,39 @@ namespace {
 
 /// Maximum number of sweeps; further ones hardly shrink the bounds.
 constexpr int kMostSweeps = 4;
+/// Maximum number of half spaces of an intersection whose corners are computed.
+constexpr std::size_t kMostPlanes = 1000;
+
+/// A box around the intersection of half spaces; all space if it is unbounded, empty, or cannot be
+/// told from these.
+Box3 box_of(std::vector<OrientedPlane> planes) {
+    const ConvexCorners solid = convex_corners(planes);
+    if (!solid.bounded || !(convex_volume(solid) > 0.0)) return kAllSpace;
+    Polyhedron padded;
+    padded.planes = std::move(planes);
+    padded.prepare();
+    Box3 box = padded.bounds;
+    for (const Vec3& p : solid.corners) box.include(p);
+    return box;
+}
+
+/// A box around the part of `box` inside the half spaces.
+Box3 clipped(const Box3& box, std::vector<OrientedPlane> planes) {
+    if (box.empty() || planes.empty() || planes.size() > kMostPlanes) return box;
+    // The finite sides of the box, too.
+    const Vec3 near = planes.front().point;
+    for (int k = 0; k < 3; ++k) {
+        for (const bool high : {false, true}) {
+            const double side = high ? box.hi[k] : box.lo[k];
+            if (!std::isfinite(side)) continue;
+            OrientedPlane plane{near, {0, 0, 0}};
+            plane.point[k] = side;
+            plane.normal[k] = high ? 1.0 : -1.0;
+            planes.push_back(plane);
+        }
+    }
+    return intersection(box, box_of(std::move(planes)));
+}
 
 }  // namespace
 
@@ -18,7 +54,8 @@ struct CsgTree::Draft {
     std::vector<std::uint32_t> operand_count;  ///< [node]
 };
 
-CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
+CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes,
+                 std::span<const std::optional<OrientedPlane>> planes) {
     Draft draft;
     flatten(expression, draft);
     for (Leaf& leaf : leaves_) {
@@ -26,7 +63,7 @@ CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
         leaf.holds = leaf.parent == 0 && !draft.is_union.front() && !leaf.complement;
     }
     set_needs(draft);
-    tighten(draft, boxes);
+    tighten(draft, boxes, planes);
 }
 
 void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
@@ -80,7 +117,15 @@ void CsgTree::set_needs(const Draft& draft) {
     }
 }
 
-void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
+void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes,
+                      std::span<const std::optional<OrientedPlane>> planes) {
+    std::vector<std::vector<OrientedPlane>> planes_of(nodes_.size());
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        if (!planes[i]) continue;
+        const OrientedPlane& plane = *planes[i];
+        planes_of[leaves_[i].parent].push_back(
+            {plane.point, leaves_[i].complement ? -plane.normal : plane.normal});
+    }
     std::vector<Box3> of_node(nodes_.size(), kAllSpace);
     std::vector<Box3> from_below(nodes_.size());
     bounds_.assign(boxes.begin(), boxes.end());
@@ -100,6 +145,9 @@ void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
             add(leaves_[i].parent, leaves_[i].complement ? kAllSpace : bounds_[i]);
         }
         for (std::size_t i = nodes_.size(); i-- > 0;) {
+            if (sweep == 0 && !draft.is_union[i] && !from_below[i].bounded()) {
+                from_below[i] = clipped(from_below[i], std::move(planes_of[i]));
+            }
             of_node[i] = intersection(of_node[i], from_below[i]);
             if (nodes_[i].parent != kNone) add(nodes_[i].parent, of_node[i]);
         }

@@ -6,17 +6,20 @@
 /// (S-bounds); Goldfeather, Monar, Turk and Fuchs, "Near Real-Time CSG Rendering Using Tree
 /// Normalization and Geometric Pruning", IEEE CG&A 9(3), 1989 (positive form).
 /// Differs: equal nested operators are merged; a complement does not bound its parent, but is
-/// itself bounded by its primitive.
-/// Conventions: points outside the S-bound of a leaf may be evaluated as outside the leaf's
-/// primitive without changing the value of the root.
-/// Complexity and threads: O(n) per sweep, at most four sweeps. Immutable after construction.
+/// itself bounded by its primitive; where the boxes do not bound an intersection, its half spaces
+/// may (convex_corners.h). Conventions: points outside the S-bound of a leaf may be evaluated as
+/// outside the leaf's primitive without changing the value of the root. Complexity and threads:
+/// O(n) per sweep, at most four sweeps, and O(half spaces^2) for at most 1000 of an intersection
+/// without a bounded box. Immutable after construction.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "alhazen/csg/csg_expression.h"
 #include "alhazen/geometry/box.h"
+#include "alhazen/geometry/polygon/convex_corners.h"
 
 namespace alhazen {
 
@@ -41,8 +44,10 @@ class CsgTree {
     };
 
     CsgTree() = default;
-    /// `boxes` contain the primitives of the leaves; infinite for unbounded ones.
-    CsgTree(const CsgExpression& expression, std::span<const Box3> boxes);
+    /// `boxes` contain the primitives of the leaves; infinite for unbounded ones. `planes`: those
+    /// of leaves that are half spaces, with unit normals out of them.
+    CsgTree(const CsgExpression& expression, std::span<const Box3> boxes,
+            std::span<const std::optional<OrientedPlane>> planes);
 
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
@@ -56,7 +61,8 @@ class CsgTree {
     struct Draft;
     void flatten(const CsgExpression& expression, Draft& draft);
     void set_needs(const Draft& draft);
-    void tighten(const Draft& draft, std::span<const Box3> boxes);
+    void tighten(const Draft& draft, std::span<const Box3> boxes,
+                 std::span<const std::optional<OrientedPlane>> planes);
 
     std::vector<Node> nodes_;  ///< parents before their children; [0] is the root
     std::vector<Leaf> leaves_;

@@ -10,6 +10,7 @@
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
+#include "alhazen/shapes/polygons/face_loops.h"
 #include "alhazen/shapes/polygons/flat_vertices.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "alhazen/shapes/tessellation/trimmed_triangles.h"
@@ -203,8 +204,20 @@ std::uint32_t plane_of(const Polyhedron& shape, std::span<const Vec3> face, std:
     return nearest;
 }
 
+/// Appends the faces of a polyhedron given by planes.
+std::string append_faces_of_planes(const Polyhedron& shape, TriangleMesh& mesh) {
+    const auto loops = closed_face_loops(shape);
+    if (!loops) return shape.box().bounded() ? kNeedsLines : "is endless";
+    for (const FaceLoop& loop : *loops) {
+        append_face(
+            loop.corners, [&](std::size_t k) { return uv_at(shape, loop.corners[k], loop.face); },
+            mesh);
+    }
+    return {};
+}
+
 std::string append(const Polyhedron& shape, double, std::uint64_t, TriangleMesh& mesh) {
-    if (shape.face_ends.empty()) return shape.box().bounded() ? kNeedsLines : "is endless";
+    if (shape.face_ends.empty()) return append_faces_of_planes(shape, mesh);
     std::size_t corner = 0, index = 0;
     for (const std::uint32_t end : shape.face_ends) {
         std::vector<Vec3> face;

@@ -181,7 +181,8 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
         return found;
     }
     if (!box.bounded()) {
-        throw Error(ErrorKind::Usage, "the solid is not bounded: its section may have no area");
+        throw Error(ErrorKind::Usage,
+                    "the solid has no bounded box; if it is bounded, intersect it with a box");
     }
     // An origin in the middle of the box keeps numbers small.
     const Vec3 center = box.center();

@@ -86,7 +86,8 @@ class Measurer {
             return found;
         }
         if (!box_.bounded()) {
-            throw Error(ErrorKind::Usage, "the solid is not bounded: it has no volume");
+            throw Error(ErrorKind::Usage,
+                        "the solid has no bounded box; if it is bounded, intersect it with a box");
         }
         center_ = box_.center();
         slack_ = kRounding * solid_.magnitude();

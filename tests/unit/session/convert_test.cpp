@@ -12,6 +12,7 @@
 #include "support/image_texture.h"
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"
+#include "unit/formats/native/native_scene.h"
 #include "unit/session/convert_scenes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -386,6 +387,26 @@ TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
         EXPECT_NEAR(read_back(path).box().hi.z, 3, 1e-6) << suffix;
     }
     EXPECT_EQ(convert(description, folder.path() / "out.alhazen").moving_parts, 0U);
+}
+
+TEST(ConvertMeshes, TrianglesOfASolidAreTheSameIfAnOperandIsShown) {
+    const auto mesh_of = [](const std::string& shown) {
+        SceneDescription scene = testing::import_native(
+                                     "object \"a\" { combine = union sphere { radius = 1 }\n"
+                                     "  box { lo = (-2,-0.1,-0.1) hi = (2,0.1,0.1) } }\n" +
+                                     shown +
+                                     "object \"b\" { combine = difference\n"
+                                     "  box { lo = (-3,-3,-3) hi = (3,3,3) } instance \"a\" }\n"
+                                     "instance \"b\"\n")
+                                     .scene;
+        (void)tessellate(scene, 0.3, false, 1'000'000);
+        return *scene.meshes.back().mesh;
+    };
+    const TriangleMesh alone = mesh_of(""), both = mesh_of("instance \"a\"\n");
+    EXPECT_GT(alone.triangles.size(), 20U);
+    EXPECT_EQ(both.triangles, alone.triangles);
+    EXPECT_EQ(both.positions, alone.positions);
+    EXPECT_EQ(both.normals, alone.normals);
 }
 
 TEST(ConvertMeshes, StrictRefusesLosses) {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "alhazen/base/error.h"
 #include "alhazen/math/constants.h"
@@ -24,6 +25,40 @@ using testing::KnownSolid;
 using testing::LoneScene;
 using testing::OneSolid;
 using testing::SceneMaker;
+
+/// A tetrahedron of volume 4.5 in a cube of side 3, as operands of an intersection.
+const std::string kFourHalfSpaces =
+    "half_space { point = (1,1,1) normal = (1,1,1) } half_space { normal = (-1,0,0) }\n"
+    "half_space { normal = (0,-1,0) } half_space { normal = (0,0,-1) }\n";
+
+TEST(SolidMeasures, HalfSpacesThatBoundASolidGiveItsBox) {
+    const auto expect_box = [](const Box3& box, const Vec3& lo, const Vec3& hi) {
+        EXPECT_LE(length(box.lo - lo) + length(box.hi - hi), 1e-9);
+        EXPECT_TRUE(box.lo.x <= lo.x && box.lo.y <= lo.y && box.lo.z <= lo.z);
+        EXPECT_TRUE(box.hi.x >= hi.x && box.hi.y >= hi.y && box.hi.z >= hi.z);
+    };
+    const OneSolid four("intersection { " + kFourHalfSpaces + "}");
+    expect_box(four.solid.box(), {0, 0, 0}, {3, 3, 3});
+    const SolidMeasures m = measure(four.solid, {.relative_error = 1e-3, .seconds = 20});
+    EXPECT_NEAR(m.volume.value, 4.5, 2 * m.volume.half_width);
+    // Placed, two of them subtracted, and as one part of a union.
+    const OneSolid moved("intersection { transform = translate(1,0,0)\n" + kFourHalfSpaces + "}");
+    expect_box(moved.solid.box(), {1, 0, 0}, {4, 3, 3});
+    const OneSolid cut(
+        "difference { intersection { half_space { point = (1,1,1) normal = (1,1,1) }\n"
+        "half_space { normal = (-1,0,0) } } half_space { normal = (0,1,0) }\n"
+        "half_space { normal = (0,0,1) } }");
+    expect_box(cut.solid.box(), {0, 0, 0}, {3, 3, 3});
+    const OneSolid both("union { sphere { center = (-5,0,0) } intersection { " + kFourHalfSpaces +
+                        "} }");
+    expect_box(both.solid.box(), {-6, -1, -1}, {3, 3, 3});
+    // Three half spaces reach to infinity.
+    const OneSolid three(
+        "intersection { half_space { point = (1,1,1) normal = (1,1,1) }\n"
+        "half_space { normal = (-1,0.1,0) } half_space { normal = (0,-1,0) } }");
+    EXPECT_FALSE(three.solid.box().bounded());
+    EXPECT_THROW((void)measure(three.solid, {}), Error);
+}
 
 TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
     for (const KnownSolid& known : known_solids()) {

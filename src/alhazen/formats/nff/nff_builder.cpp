@@ -4,6 +4,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "alhazen/formats/mesh/bent_polygon.h"
 #include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/geometry/polygon/free_diagonals.h"
 #include "alhazen/geometry/polygon/polygon_plane.h"
@@ -132,10 +133,13 @@ void NffBuilder::add_polygon(const std::vector<Vec3>& vertices, const std::vecto
         ++degenerate_;
         return;
     }
-    if (!is_flat(vertices, normalize(normal))) return add_triangles(vertices, normals, where);
     Polygon polygon;
     polygon.vertices = vertices;
     polygon.loop_ends = loop_ends;
+    if (const auto bent = bent_polygon(polygon)) {
+        if (bent->is_simple) return add_triangles(vertices, normals, where);
+        diagnostics_.warning(where, "polygon: " + bent->warning() + "met in their mean plane");
+    }
     add_shape(std::move(polygon), where);
 }
 

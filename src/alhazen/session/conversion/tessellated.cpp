@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "alhazen/base/error.h"
 #include "alhazen/scene/scene.h"
@@ -185,8 +187,14 @@ class Tessellation {
         const ObjectStretches stretches(scene_);
         std::vector<std::size_t> groups, solids;
         find_pictured(groups, solids);
-        // Solids first: their operands must still be those of the file.
-        for (const std::size_t k : solids) replace_solid(k, stretches[k]);
+        // All solids before any is replaced: a solid may also be an operand of another.
+        std::vector<std::pair<std::size_t, ObjectDescription>> replaced;
+        for (const std::size_t k : solids) {
+            if (auto object = tessellated_solid(k, stretches[k])) {
+                replaced.emplace_back(k, *std::move(object));
+            }
+        }
+        for (auto& [k, object] : replaced) scene_.objects[k] = std::move(object);
         for (const std::size_t k : groups) {
             for (Part& part : scene_.objects[k].parts) replace(part, stretches[k]);
         }
@@ -230,7 +238,9 @@ class Tessellation {
         const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
         if (solids.count() != 1) return "bounds no volume";
         const IsolatedSolid solid(solids, SolidId{0});
-        if (!solid.box().empty() && !solid.box().bounded()) return "is endless";
+        if (!solid.box().empty() && !solid.box().bounded()) {
+            return "has no bounded box; if it is bounded, intersect it with a box";
+        }
         const std::uint64_t most = max_triangles_ - report_.triangles;
         SolidTrianglesReport report;
         const bool made = make_solid_triangles(solid, tolerance, most, mesh, with_uvs, &report);
@@ -239,13 +249,14 @@ class Tessellation {
         return made ? "" : kTooManyTriangles;
     }
 
-    void replace_solid(std::size_t index, double stretch) {
-        ObjectDescription& object = scene_.objects[index];
+    /// The solid as a group of its mesh; none if it is refused.
+    std::optional<ObjectDescription> tessellated_solid(std::size_t index, double stretch) {
+        const ObjectDescription& object = scene_.objects[index];
         auto mesh = std::make_shared<TriangleMesh>();
         const SceneDescription alone = object_alone(scene_, index);
         const std::string failed =
             append_by_lines(alone, tolerance_ / stretch, any_part_reads_coordinates(alone), *mesh);
-        if (!accept(failed, object.location, object.name, "the solid ", *mesh)) return;
+        if (!accept(failed, object.location, object.name, "the solid ", *mesh)) return {};
         const std::string lost = lost_of_meshes(alone);
         if (!lost.empty()) {
             report_.lost.push_back(fmt::format("{}: the solid {}: its triangles do not have {}",
@@ -259,8 +270,10 @@ class Tessellation {
             materials.clear();
         }
         place(std::move(mesh), part);
-        object.parts = {part};
-        object.combine = Combine::Group;
+        ObjectDescription group = object;
+        group.parts = {part};
+        group.combine = Combine::Group;
+        return group;
     }
 
     /// True if there is a mesh, which may be empty; otherwise reports why not.

@@ -1,6 +1,9 @@
 #include "alhazen/shapes/polygons/face_loops.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
 
 namespace alhazen {
 
@@ -13,6 +16,57 @@ Vec3 area_vector(const std::vector<Vec3>& loop) {
         sum += cross(loop[k] - loop[0], loop[k + 1] - loop[0]);
     }
     return sum;
+}
+
+/// Replaces corners near an earlier one by it, then drops repeated corners, faces without area and
+/// those of planes given twice.
+void weld(std::vector<FaceLoop>& loops) {
+    constexpr double kNear = 1e-9;
+    Box3 box;
+    for (const FaceLoop& loop : loops) {
+        for (const Vec3& p : loop.corners) box.include(p);
+    }
+    const double near = kNear * length(box.size());
+    std::vector<Vec3> kept;
+    for (FaceLoop& loop : loops) {
+        std::vector<Vec3>& corners = loop.corners;
+        for (Vec3& p : corners) {
+            const auto same = std::find_if(kept.begin(), kept.end(),
+                                           [&](const Vec3& q) { return length(p - q) <= near; });
+            if (same != kept.end()) {
+                p = *same;
+            } else {
+                kept.push_back(p);
+            }
+        }
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+    }
+    std::set<std::vector<std::array<double, 3>>> seen;
+    std::erase_if(loops, [&](const FaceLoop& loop) {
+        std::vector<std::array<double, 3>> corners;
+        for (const Vec3& p : loop.corners) corners.push_back({p.x, p.y, p.z});
+        std::sort(corners.begin(), corners.end());
+        return corners.size() < 3 || !seen.insert(std::move(corners)).second;
+    });
+}
+
+/// True if each edge is used once in each direction.
+bool is_closed(const std::vector<FaceLoop>& loops) {
+    using Edge = std::array<double, 6>;
+    std::vector<Edge> edges, opposite;
+    for (const FaceLoop& loop : loops) {
+        const std::size_t n = loop.corners.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec3 &a = loop.corners[k], &b = loop.corners[(k + 1) % n];
+            edges.push_back({a.x, a.y, a.z, b.x, b.y, b.z});
+            opposite.push_back({b.x, b.y, b.z, a.x, a.y, a.z});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::sort(opposite.begin(), opposite.end());
+    const bool once = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+    return !edges.empty() && once && edges == opposite;
 }
 
 }  // namespace
@@ -50,6 +104,14 @@ std::optional<std::vector<FaceLoop>> face_loops(const Polyhedron& solid) {
         if (dot(area_vector(corners), normal) < 0.0) std::reverse(corners.begin(), corners.end());
         loops.push_back({face, normal, std::move(corners)});
     }
+    return loops;
+}
+
+std::optional<std::vector<FaceLoop>> closed_face_loops(const Polyhedron& solid) {
+    std::optional<std::vector<FaceLoop>> loops = face_loops(solid);
+    if (!loops) return std::nullopt;
+    weld(*loops);
+    if (!is_closed(*loops)) return std::nullopt;
     return loops;
 }
 

@@ -20,5 +20,8 @@ struct FaceLoop {
 [[nodiscard]] std::vector<FaceLoop> face_loops(const BoxShape& box);
 /// Faces without corners are left out; nothing for an unbounded polyhedron.
 [[nodiscard]] std::optional<std::vector<FaceLoop>> face_loops(const Polyhedron& solid);
+/// The same with corners that differ by rounding made one, so that each edge belongs to two faces;
+/// nothing if some does not, as with corners of nearly parallel planes.
+[[nodiscard]] std::optional<std::vector<FaceLoop>> closed_face_loops(const Polyhedron& solid);
 
 }  // namespace alhazen

@@ -111,6 +111,45 @@ TEST(NativeImporter, ReadsPolygonsWithCornersOffThePlaneAsTriangles) {
     EXPECT_EQ(shape_of<Polygon>(loops, 0).loop_ends.size(), 2u);
 }
 
+TEST(NativeImporter, ReadsPolygonLightsWithCornersOffThePlaneAsTriangles) {
+    const auto light_of = [](const Imported& found) {
+        return std::get<AreaLight>(found.scene.lights.at(0).light);
+    };
+    const auto read = [](const std::string& vertices) {
+        return import_native("polygon_light { vertices = [" + vertices + "]; power_watts = 6 }");
+    };
+    const Imported flat = read("(-1,-1,2), (-1,1,2), (1,1,2.0001), (1,-1,2)");
+    EXPECT_EQ(flat.messages(), "");
+    EXPECT_TRUE(std::holds_alternative<PolygonExtent>(light_of(flat).extent));
+    const Imported bent = read("(-1,-1,2), (-1,1,2), (1,1,3), (1,-1,2)");
+    EXPECT_NE(bent.messages().find("warning: polygon_light: its corners are not in a plane, but"),
+              std::string::npos);
+    EXPECT_NE(bent.messages().find("read as triangles"), std::string::npos);
+    // The same light as a mesh: of the same power, thus radiance.
+    const AreaLight mesh =
+        light_of(import_native("mesh_light { points = [(-1,-1,2), (-1,1,2), (1,1,3), (1,-1,2)]\n"
+                               "  faces = [(0,1,2,3)]; power_watts = 6 }"));
+    const AreaLight light = light_of(bent);
+    const auto& triangles = std::get<MeshExtent>(light.extent);
+    EXPECT_EQ(triangles.points, std::get<MeshExtent>(mesh.extent).points);
+    EXPECT_EQ(triangles.triangles.size(), 2u);
+    EXPECT_NEAR(light.radiance.r, mesh.radiance.r, 0.05 * mesh.radiance.r);
+    // It emits to the same side.
+    const Vec3 down = LightSurface(light.extent, false).projected_area({0, 0, -1}) > 0
+                          ? Vec3{0, 0, -1}
+                          : Vec3{0, 0, 1};
+    EXPECT_GT(LightSurface(mesh.extent, false).projected_area(down), 0.0);
+    // One that crosses itself is in the mean plane.
+    const Imported bow = read("(-1,-1,0), (1,1,0), (1,-1,0), (-1,1,0.01)");
+    EXPECT_NE(bow.messages().find("mean plane"), std::string::npos) << bow.messages();
+    Polygon plane;
+    const AreaLight tie_light = light_of(bow);
+    plane.vertices = std::get<PolygonExtent>(tie_light.extent).vertices;
+    ASSERT_EQ(plane.vertices.size(), 4u);
+    plane.prepare();
+    EXPECT_LT(plane.off_plane, 1e-12);
+}
+
 TEST(NativeImporter, ReadsEveryFieldOfEveryShape) {
     const Imported i = import_native(
         "sphere { center = (1,2,3); radius = 4 }"

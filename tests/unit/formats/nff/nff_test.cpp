@@ -148,6 +148,26 @@ TEST(Nff, BowTiesArePolygonsWhoseHalvesDoNotCancel) {
     EXPECT_EQ(count(scene), Counts{});
 }
 
+TEST(Nff, BentPolygonsThatCrossThemselvesStayPolygons) {
+    const auto read = [](const char* off, Diagnostics& found) {
+        return import_text(
+            kView + kFill + "p 5\n0 0 0\n1 1 " + off + "\n1 0 0\n0 1 0\n-0.3 0.5 0\n", "a.nff",
+            found);
+    };
+    Diagnostics flat, bent;
+    EXPECT_EQ(count(read("0", flat)), (Counts{0, 0, 0, 1, 0, 0}));
+    EXPECT_EQ(text_of(flat), "");
+    EXPECT_EQ(count(read("0.02", bent)), (Counts{0, 0, 0, 1, 0, 0}));
+    EXPECT_TRUE(mentions(bent, "warning: polygon: its corners are not in a plane, but up to"));
+    EXPECT_TRUE(mentions(bent, "off: it is met in their mean plane"));
+    // A vertex written twice is no crossing.
+    Diagnostics twice;
+    const SceneDescription scene = import_text(
+        kView + kFill + "p 5\n0 0 0\n1 0 0.3\n1 0 0.3\n1 1 0\n0 1 0.3\n", "a.nff", twice);
+    EXPECT_EQ(count(scene).polygons, 0u);
+    EXPECT_EQ(text_of(twice), "");
+}
+
 TEST(Nff, PolygonsAndPatchesWithoutAreaAreLeftOut) {
     Diagnostics found;
     const SceneDescription scene =

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <set>
 
+#include "alhazen/math/constants.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "support/odd_even_area.h"
@@ -393,6 +397,64 @@ TEST(ShapeTessellation, FacesOfAPolyhedronInEitherOrderTurnOutward) {
     const TriangleMesh mesh = mesh_of(solid, 0.1);
     EXPECT_NEAR(signed_volume(mesh), 8.0 / 6, 1e-12);
     check_uvs(solid, 1e-9);
+}
+
+TEST(ShapeTessellation, APolyhedronOfPlanesIsItsFaces) {
+    // The tolerance is as large as the solid. Four planes meet in the apex, a plane occurs twice,
+    // one cuts nothing off.
+    Polyhedron pyramid;
+    for (int k = 0; k < 5; ++k) {
+        const double a = kPi / 2 * (k % 4);
+        pyramid.planes.push_back({{std::cos(a), std::sin(a), 0}, {std::cos(a), std::sin(a), 0.1}});
+    }
+    pyramid.planes.push_back({{0, 0, 0}, {0, 0, -1}});
+    pyramid.planes.push_back({{0, 0, 11}, {0, 0, 1}});
+    const TriangleMesh mesh = mesh_of(pyramid, 20);
+    EXPECT_EQ(mesh.triangles.size(), 6u);
+    EXPECT_NEAR(signed_volume(mesh), 4.0 * 10 / 3, 1e-9);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_EQ(mesh_edges(mesh).crowded, 0u);
+    check_uvs(pyramid, 1e-9);
+
+    // Random planes that touch a sphere: no more than 3 f - 6 edges, each of two triangles.
+    Random random(11);
+    for (int round = 0; round < 20; ++round) {
+        Polyhedron solid;
+        for (int k = 0; k < 24; ++k) {
+            const Vec3 n = random.unit_vector();
+            solid.planes.push_back({n, n});
+        }
+        solid.prepare();
+        if (!solid.bounds.bounded() || max_component(solid.bounds.size()) > 50) continue;
+        const TriangleMesh faces = mesh_of(solid, 0.001);
+        EXPECT_LE(faces.triangles.size(), 2u * 44 - 4);
+        EXPECT_TRUE(faces.closed());
+        EXPECT_EQ(mesh_edges(faces).crowded, 0u);
+        for (const Vec3& p : faces.positions) {
+            for (const OrientedPlane& f : solid.faces) {
+                EXPECT_LE(dot(p - f.point, f.normal), 1e-9 * 50);
+            }
+        }
+    }
+}
+
+TEST(ShapeTessellation, AConeThatEndsInAnEdgeHasNoCapThere) {
+    for (const Vec3& d : {Vec3{0, 0, 0}, Vec3{0.3, 0, 0}}) {
+        Tgc cone;
+        cone.axis_d = d;
+        cone.prepare();
+        std::vector<BezierPiece> pieces;
+        append_pieces(cone, pieces);
+        std::set<std::uint32_t> parts;
+        for (const BezierPiece& piece : pieces) parts.insert(piece.part);
+        EXPECT_EQ(parts, (std::set<std::uint32_t>{0, 5}));
+    }
+    // The edge is then one of the mesh: of two triangles, not of four.
+    Tgc wedge;
+    wedge.axis_d = {0, 0, 0};
+    const TriangleMesh mesh = mesh_of(wedge, 0.01);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_EQ(mesh_edges(mesh).crowded, 0u);
 }
 
 TEST(ShapeTessellation, ALatheHasTheOutsideAndTheTextureCoordinatesOfItsProfile) {

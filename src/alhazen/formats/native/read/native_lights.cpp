@@ -7,6 +7,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/mesh/mesh_lists.h"
+#include "alhazen/formats/native/read/native_bent_polygon.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_view_fields.h"
 #include "alhazen/math/constants.h"
@@ -231,9 +232,11 @@ template <class Extent>
 void read_area_light(const NativeBlock& block, NativeContext& context) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
-    Extent extent;
+    Extent given;
     AreaLight light;
-    read_fields(reader, extent);
+    read_fields(reader, given);
+    LightExtent extent = std::move(given);
+    replace_bent_polygon(context, block.location, extent);
     if (!reader.has("radiance") && !reader.has("power_watts") && !reader.has("lumens")) {
         reader.error(reader.block(),
                      "'radiance = ...', 'power_watts = ...' or 'lumens = ...' is missing");

@@ -69,8 +69,8 @@ struct RingFrame {
 using Profile1 = std::array<std::array<double, 3>, 2>;
 using Profile2 = std::array<std::array<double, 3>, 3>;
 
-/// A ruled side between two parallel ellipses, and discs inside them if capped. The caps have the
-/// parts `base_part` and `base_part + 1`.
+/// A ruled side between two parallel ellipses, and discs inside those with an area if capped. The
+/// caps have the parts `base_part` and `base_part + 1`.
 void append_ruled(const RingPoint& base, const RingPoint& top, bool capped, std::uint32_t base_part,
                   std::vector<BezierPiece>& pieces) {
     const RingPoint& wide =
@@ -79,9 +79,9 @@ void append_ruled(const RingPoint& base, const RingPoint& top, bool capped, std:
     const bool left = dot(cross(wide.a, wide.b), top.center - base.center) < 0.0;
     append_ring({base, top}, left, 0, pieces);
     if (!capped) return;
-    const auto flat = [](const RingPoint& ring) { return ring.a == Vec3{} && ring.b == Vec3{}; };
-    if (!flat(base)) append_ring({{base.center, {}, {}, 1.0}, base}, left, base_part, pieces);
-    if (!flat(top)) append_ring({top, {top.center, {}, {}, 1.0}}, left, base_part + 1, pieces);
+    const auto has_area = [](const RingPoint& ring) { return cross(ring.a, ring.b) != Vec3{}; };
+    if (has_area(base)) append_ring({{base.center, {}, {}, 1.0}, base}, left, base_part, pieces);
+    if (has_area(top)) append_ring({top, {top.center, {}, {}, 1.0}}, left, base_part + 1, pieces);
 }
 
 void append_frustum(const Vec3& base, const Vec3& top, double base_radius, double top_radius,
