@@ -90,7 +90,8 @@ inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
     return r;
 }
 
-/// Renders a picture. `renderer`: NAME or "NAME --spectral".
+/// Renders a picture. `renderer`: NAME or "NAME --spectral"; its settings of optics are those of
+/// the scene (Renderer::adjust).
 inline Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
                        std::uint64_t seed = 1, int threads = 1, int tile = 32) {
     const SamplingPlan plan;
@@ -103,7 +104,12 @@ inline Film picture_of(const Scene& scene, const std::string& renderer, int side
                         .sampling = &plan,
                         .spectral = option != std::string::npos,
                         .control = {.threads = threads, .tile_size = tile}};
-    const RenderReport report = make_renderer(renderer.substr(0, option))->render(job, film);
+    const std::unique_ptr<Renderer> made = make_renderer(renderer.substr(0, option));
+    ShadingConventions adjusted = scene.conventions.shading;
+    made->adjust(adjusted);
+    EXPECT_EQ(adjusted.optics.fresnel, scene.conventions.shading.optics.fresnel);
+    EXPECT_EQ(adjusted.optics.beer, scene.conventions.shading.optics.beer);
+    const RenderReport report = made->render(job, film);
     EXPECT_TRUE(report.complete());
     EXPECT_EQ(report.counters.non_finite, 0u);
     return film;

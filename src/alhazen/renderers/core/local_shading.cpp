@@ -308,7 +308,7 @@ Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& 
                    double highlight_cosine, double cosine, const Rgb& matt) {
     // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
     if (!(highlight_cosine > 0.0)) return matt;
-    const double falloff = m.physical ? cosine : 1.0;
+    const double falloff = m.highlight_by_cosine ? cosine : 1.0;
     const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
     if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, matt)) return matt;
     const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)

@@ -106,12 +106,10 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     faces_.find(point, -point.view, arrival, arrival.mask);
     if (faces_.opaque()) {
         // Its material bounds no volume: no further faces are looked for.
-        const std::vector<Sheet> sheets = sheets_at(point, arrival);
+        std::vector<Sheet> sheets = sheets_at(point, arrival);
         set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival,
                           {.optics = this}, point);
-        if (!hides_sheets(scene_, point)) {
-            for (const Sheet& sheet : sheets) lay_below(sheet, arrival, {}, point);
-        }
+        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), arrival, {}, point);
         return;
     }
     const MaterialSample& met = *point.material;
@@ -123,7 +121,7 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
                                  {.optics = &other}, point);
     }
     const bool known = instead != nullptr && !met.thin;
-    const std::vector<Sheet> sheets = known ? instead->sheets() : other_sheets(point, arrival);
+    std::vector<Sheet> sheets = known ? instead->sheets() : other_sheets(point, arrival);
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
     point.medium_is_physical = met.physical || !tints_events_;
@@ -147,11 +145,10 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     } else {
         point.passing = tint_of(*point.material) * sides.before;
     }
-    for (const Sheet& sheet : sheets) {
-        if (point.material->thin || is_smooth(sheet.sample)) {
-            lay_below(sheet, arrival, sides, point);
-        }
+    if (!point.material->thin) {
+        std::erase_if(sheets, [](const Sheet& sheet) { return !is_smooth(sheet.sample); });
     }
+    lay_below(std::move(sheets), arrival, sides, point);
 }
 
 bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
@@ -165,8 +162,9 @@ bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const 
 
 std::vector<ExactOptics::Sheet> ExactOptics::sheets_at(const ShadingPoint& point,
                                                        const Arrival& arrival) const {
-    std::vector<Sheet> sheets = other_sheets(point, arrival);
+    std::vector<Sheet> sheets;
     if (point.material->thin) sheets.push_back({point.surface, *point.material});
+    for (Sheet& other : other_sheets(point, arrival)) sheets.push_back(std::move(other));
     return sheets;
 }
 
@@ -183,14 +181,22 @@ std::vector<ExactOptics::Sheet> ExactOptics::other_sheets(const ShadingPoint& po
     return sheets;
 }
 
+void ExactOptics::lay_below(std::vector<Sheet> sheets, const Arrival& arrival, const Sides& sides,
+                            ShadingPoint& point) const {
+    // A sheet that was hit has the others behind it; of others the last is next to the surface.
+    if (!point.material->thin) std::reverse(sheets.begin(), sheets.end());
+    for (const Sheet& sheet : sheets) lay_below(sheet, arrival, sides, point);
+}
+
 void ExactOptics::lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
                             ShadingPoint& point) const {
     // The sheet is on the side of the lower index, or outside.
-    const bool is_outside = sides.here == sides.beyond && !point.entering &&
-                            !point.material->thin && !point.passing.is_black();
-    const bool is_behind = sides.here > sides.beyond || is_outside;
+    const bool is_sheet = point.material->thin;
+    const bool is_outside =
+        sides.here == sides.beyond && !point.entering && !point.passing.is_black();
+    const bool is_behind = is_sheet || sides.here > sides.beyond || is_outside;
     double cosine = dot(point.view, point.normal);
-    if (is_behind) {
+    if (is_behind && !is_sheet) {
         const double squared = 1.0 - point.behind.eta * point.behind.eta * (1.0 - cosine * cosine);
         if (!(squared > 0.0)) return;
         cosine = std::sqrt(squared);
@@ -403,7 +409,7 @@ ExactOptics::Medium ExactOptics::medium_of(const OtherFace& face) const {
     return medium;
 }
 
-std::uint32_t ExactOptics::within(const MediumStack& volumes) {
+RayMedium ExactOptics::within(const MediumStack& volumes) {
     std::uint32_t around = kOutside;
     for (std::size_t i = 0; i < volumes.size(); ++i) {
         const alhazen::Medium& volume = volumes[i];
@@ -421,7 +427,11 @@ std::uint32_t ExactOptics::within(const MediumStack& volumes) {
         medium.hidden = (volume.seen_by & mask_of(RayKind::Shadow)) == 0;
         around = enter(medium, around);
     }
-    return around;
+    const Medium& innermost = media_[around];
+    return {.inside = around != kOutside,
+            .hidden = innermost.hidden,
+            .absorption = innermost.absorption,
+            .medium = around};
 }
 
 std::uint32_t ExactOptics::enter(Medium medium, std::uint32_t around) {

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/ray_medium.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
 
 namespace alhazen {
@@ -49,7 +49,7 @@ class ExactOptics final : public SurfaceOptics {
 
     /// The medium inside volumes around a point, at which a ray begins: those of kt by distance
     /// have that at texture coordinates 0.
-    [[nodiscard]] std::uint32_t within(const MediumStack& volumes);
+    [[nodiscard]] RayMedium within(const MediumStack& volumes);
 
     /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.
@@ -112,7 +112,9 @@ class ExactOptics final : public SurfaceOptics {
                                                const Arrival& arrival) const;
     [[nodiscard]] std::vector<Sheet> other_sheets(const ShadingPoint& point,
                                                   const Arrival& arrival) const;
-    /// Lays the point below a sheet.
+    /// Lays the point below sheets, the uppermost of which comes first; a sheet, before others.
+    void lay_below(std::vector<Sheet> sheets, const Arrival& arrival, const Sides& sides,
+                   ShadingPoint& point) const;
     void lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
                    ShadingPoint& point) const;
     /// A face that a ray crosses.

@@ -1,10 +1,12 @@
 #include "alhazen/renderers/volumes/touching_faces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "alhazen/renderers/volumes/sheet_layer.h"
 #include "alhazen/renderers/volumes/volume_bounds.h"
+#include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/optics/dispersion.h"
 
@@ -79,8 +81,8 @@ std::vector<MaterialSample> TouchingFaces::sheets_at(const ShadingPoint& point,
 void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const {
     if (sheets.empty()) return;
     double cosine = dot(point.view, point.normal);
-    bool is_behind = false;
-    if (!point.material->thin && !point.passing.is_black()) {
+    bool is_behind = point.material->thin;
+    if (!is_behind && !point.passing.is_black()) {
         // The sheets are on the side of the lower index, or outside.
         const double air = scene_.conventions.shading.air_index;
         const double eta = point.behind.known ? point.behind.eta
@@ -93,6 +95,8 @@ void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, ShadingPoint& 
             cosine = std::sqrt(squared);
         }
     }
+    // A sheet that was hit has the others behind it; of others the last is next to the surface.
+    if (!point.material->thin) std::reverse(sheets.begin(), sheets.end());
     for (MaterialSample& sheet : sheets) {
         turn_to_view(sheet, cosine, false);
         alhazen::lay_below(sheet, is_behind, point);

@@ -37,7 +37,8 @@ class TouchingFaces final : public SurfaceOptics {
     /// itself included, if it is one and `own`.
     [[nodiscard]] std::vector<MaterialSample> sheets_at(const ShadingPoint& point,
                                                         const Arrival& arrival, bool own) const;
-    /// Lays a completed point below sheets.
+    /// Lays a completed point below sheets, the uppermost of which comes first; a sheet, before
+    /// others.
     void lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const;
     /// True if a face is crossed together with that of the point.
     [[nodiscard]] bool is_joined(const ShadingPoint& point, const OtherFace& other) const;

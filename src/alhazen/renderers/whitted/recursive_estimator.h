@@ -148,7 +148,7 @@ class RecursiveEstimator {
     void start_at(const Vec3& point, float time, RayMedium& medium) {
         MediumStack volumes = finder_->around(point, time);
         volumes.keep_seen_by(mask_of(RayKind::Eye));
-        medium = optics_ ? RayMedium{.medium = optics_->within(volumes)}
+        medium = optics_ ? optics_->within(volumes)
                          : medium_within(scene_, volumes, tracks_media() ? &tinted_ : nullptr);
     }
     /// Sets the paths of the next eye rays, which differ in few things from the last ones.

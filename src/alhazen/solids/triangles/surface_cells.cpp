@@ -6,7 +6,6 @@
 #include "alhazen/base/interruption.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/parallel/parallel.h"
 #include "alhazen/solids/triangles/cell_sheets.h"
 
 namespace alhazen {
@@ -25,8 +24,8 @@ constexpr double kMostLinesInPart = 1024, kMostLinesInParts = 65536;
 constexpr double kVertexBeyond = 0.5;
 /// Of so many faces that are not near, the distance of one is measured.
 constexpr std::size_t kFacesPerDistance = 64;
-/// Faces that are tested at once, and those of one task.
-constexpr std::size_t kFacesOfBlock = 4096, kGrain = 64;
+/// Faces that are tested at once.
+constexpr std::size_t kFacesOfBlock = 4096;
 /// Distance of lines that are not edges of cells, in cells of the largest size.
 constexpr double kLineSpacing = 0.25;
 
@@ -51,6 +50,7 @@ SurfaceCells::SurfaceCells(const IsolatedSolid& solid, double cell, int halvings
       // outside.
       origin_(box_.lo - cell * Vec3{0.6180339887, 0.7548776662, 0.5698402910}),
       tree_(kRootCells << halvings),
+      tests_(solid, vertices_, limit_),
       coordinates_(coordinates) {
     split_to(0, box_, std::uint32_t{1} << halvings);
     const std::vector<IsolatedSolid::SurfacePart> parts = solid.surface_parts();
@@ -391,100 +391,20 @@ void SurfaceCells::test_faces() {
             }
             tested.push_back(static_cast<std::uint32_t>(begin));
         }
-        test_block(tested);
+        tests_.test(tested, edges_, [&](const Edge& edge) { return face(edge); });
         for (const std::uint32_t k : tested) {
             if (edges_[k].is_near) continue;
             ask(edges_[k].at);
             if (count++ % kFacesPerDistance == 0) {
-                distances_.push_back(distance_of(face(edges_[k])));
+                distances_.push_back(tests_.distance_of(face(edges_[k]), line_, 2 * cell_));
             }
         }
     }
-}
-
-void SurfaceCells::test_block(const std::vector<std::uint32_t>& edges) {
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t k : edges) {
-        for (const std::uint32_t v : edges_[k].vertices) {
-            if (!vertices_[v].is_near) vertices.push_back(v);
-        }
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    parallel_for(vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        SurfaceLine line(solid_);
-        for (; first < last; ++first) {
-            interruption_point();
-            Vertex& v = vertices_[vertices[first]];
-            v.is_near = line.is_near(v.point, v.normal, limit_);
-        }
-    });
-    parallel_for(edges.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        SurfaceLine line(solid_);
-        for (; first < last; ++first) {
-            interruption_point();
-            Edge& edge = edges_[edges[first]];
-            edge.is_near = is_face_near(edge, face(edge), line);
-        }
-    });
-}
-
-double SurfaceCells::distance_of(const Face& face) {
-    double most = 0;
-    for (std::size_t k = 0; k < face.triangle_count(); ++k) {
-        const auto t = face.triangle(k);
-        const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
-        const Vec3 normal = unit_or(cross(b - a, c - a), vertex(t[0]).normal);
-        const Vec3 middle = (a + b + c) / 3;
-        for (const Vec3& p : {middle, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), a, b, c}) {
-            const double distance = line_.distance(p, normal, 2 * cell_);
-            if (distance < kInfinity) most = std::max(most, distance);
-        }
-    }
-    return most;
 }
 
 double SurfaceCells::larger_tolerance() const {
     if (distances_.empty()) return 0;
     return 2 * std::max(*std::max_element(distances_.begin(), distances_.end()), 2 * limit_);
-}
-
-bool SurfaceCells::is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const {
-    for (std::size_t k = 0; k < face.triangle_count(); ++k) {
-        const std::array<std::uint32_t, 3> t = face.triangle(k);
-        if (!is_near(t, line) || !is_face_turned_out(edge, t, line)) return false;
-    }
-    return true;
-}
-
-bool SurfaceCells::is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
-                                      SurfaceLine& line) const {
-    const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
-    const Vec3 normal = unit_or(cross(b - a, c - a), edge.met.normal);
-    if (dot(normal, edge.met.normal) > 0.0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t k) {
-            return dot(normal, vertex(k).normal) > 0.0;
-        })) {
-        return true;
-    }
-    return line.faces((a + b + c) / 3, normal, limit_);
-}
-
-bool SurfaceCells::is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const {
-    const Vec3 a = point(t[0]), b = point(t[1]), c = point(t[2]);
-    const Vec3 normal = unit_or(cross(b - a, c - a), vertex(t[0]).normal);
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (!vertex(t[k]).is_near) return false;
-        const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-        if (from > to) continue;
-        for (const double share : {0.25, 0.5, 0.75}) {
-            if (!line.is_near((1 - share) * point(from) + share * point(to), normal, limit_)) {
-                return false;
-            }
-        }
-    }
-    return line.is_near(0.25 * (a + b) + 0.5 * c, normal, limit_) &&
-           line.is_near(0.25 * (b + c) + 0.5 * a, normal, limit_) &&
-           line.is_near(0.25 * (c + a) + 0.5 * b, normal, limit_);
 }
 
 // ---- Lines that are not edges of cells.

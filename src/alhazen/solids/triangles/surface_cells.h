@@ -21,6 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "alhazen/solids/triangles/face_tests.h"
 #include "alhazen/solids/triangles/surface_faces.h"
 #include "alhazen/solids/triangles/surface_line.h"
 
@@ -121,18 +122,6 @@ class SurfaceCells {
     [[nodiscard]] double badness(const Face& face, std::size_t first, const Vec3& normal) const;
     /// Asks for a division of cells whose faces are not near the surface.
     void test_faces();
-    /// Tests the faces of edges, and their vertices, in parallel.
-    void test_block(const std::vector<std::uint32_t>& edges);
-    bool is_face_near(const Edge& edge, const Face& face, SurfaceLine& line) const;
-    /// False if a triangle of a face is turned over: it faces away from the surface at the edge and
-    /// at its corners, and from the surface near its middle.
-    bool is_face_turned_out(const Edge& edge, const std::array<std::uint32_t, 3>& t,
-                            SurfaceLine& line) const;
-    /// Largest distance of corners and middles of a face from the surface.
-    double distance_of(const Face& face);
-    /// Tests the points of a triangle whose barycentric coordinates are quarters; those of an edge
-    /// between two vertices in one of the triangles beside it.
-    bool is_near(const std::array<std::uint32_t, 3>& t, SurfaceLine& line) const;
 
     // ---- Lines that are not edges of cells.
     /// Asks for a division of cells that the surface seems not to pass through, in which the middle
@@ -150,6 +139,7 @@ class SurfaceCells {
     Box3 box_;
     Vec3 origin_;
     CellTree tree_;
+    FaceTests tests_;
     SolidCoordinates* coordinates_;
     std::vector<Edge> edges_;
     std::vector<Vertex> vertices_;

@@ -321,8 +321,8 @@ TEST(Media, OutsideOfSolidsTheWindingOfAMeshDecidesWhereItsMaterialIs) {
 /// The eye looks down from z = 0 in an absorber that ends at z = -2, before a shining wall.
 TEST(Media, AnEyeInAVolumeSeesThroughIt) {
     for (const bool parallel : {false, true}) {
-        for (const std::string renderer :
-             {"whitted", "distributed", "whitted:fresnel=on,beer=on", "path_tracing"}) {
+        for (const std::string renderer : {"whitted", "distributed", "whitted:fresnel=on,beer=on",
+                                           "distributed:fresnel=on,beer=on", "path_tracing"}) {
             testing::SceneMaker maker;
             Camera& camera = maker.description().cameras[0].camera;
             camera = look_along({0.3, 0.2, 0}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
@@ -334,7 +334,9 @@ TEST(Media, AnEyeInAVolumeSeesThroughIt) {
             maker.add(BoxShape{{-4, -4, -2}, {4, 4, 2}}, maker.material(absorber));
             maker.add(testing::rectangle({-4, -4, -3}, {8, 0, 0}, {0, 8, 0}),
                       maker.material(testing::shining({1, 1, 1})));
-            const Rgb found = testing::picture_of(maker.compile(), renderer, 1, 1).at(0, 0);
+            Scene scene = maker.compile();
+            make_renderer(renderer)->adjust(scene.conventions.shading);
+            const Rgb found = testing::picture_of(scene, renderer, 1, 1).at(0, 0);
             EXPECT_NEAR(found.r, std::exp(-0.6), 1e-6) << renderer << parallel;
             EXPECT_NEAR(found.g, std::exp(-0.2), 1e-6) << renderer << parallel;
             EXPECT_NEAR(found.b, 1.0, 1e-6) << renderer << parallel;

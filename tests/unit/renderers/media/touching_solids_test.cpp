@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "alhazen/renderers/core/renderer.h"
 #include "support/light_pictures.h"
@@ -61,11 +63,13 @@ SceneMaker two_blocks(const Block& a, const Block& b, bool reversed, Kt kt,
 Rgb color_of(SceneMaker& maker, const std::string& renderer, const Vec3& direction = {0, 0, -1}) {
     maker.description().cameras[0].camera =
         look_along(Vec3{0.0137, 0.0071, 1} - 4.0 * direction, direction, {0.1, 1, 0}, 1e-6, 1.0);
-    const Scene scene = maker.compile();
+    Scene scene = maker.compile();
+    const std::unique_ptr<Renderer> made = make_renderer(renderer);
+    made->adjust(scene.conventions.shading);
     const RenderJob job{
         .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
     Film film(1, 1, {0, 0, 1, 1});
-    (void)make_renderer(renderer)->render(job, film);
+    (void)made->render(job, film);
     return film.at(0, 0);
 }
 
@@ -248,6 +252,105 @@ TEST(TouchingSolids, SheetsAtOnePlaceAreAllPassed) {
         expect_as_apart({floor, shining({0.5, 1, 2})}, sheet(0), renderer, 1e-6, 2);
         if (renderer == "path_tracing") continue;
         expect_as_apart({floor, shining({0.5, 1, 2})}, sheet(0.5, 0.5), renderer, 2e-3, 3);
+    }
+}
+
+/// Sheets above a card or block with its upper face at z = 1, `height` apart, from the uppermost
+/// down, named in this order; lit from the side and by an ambient light.
+Rgb seen_through(const std::vector<Material>& sheets, const AnyShape& shape,
+                 const Material& material, double height, const std::string& renderer,
+                 const Vec3& direction = {0, 0, -1}) {
+    SceneMaker maker;
+    maker.description().conventions.shading.max_depth = 12;
+    maker.light(DirectionalLight{{0.6, 0, 0.8}, {1.25, 1.25, 1.25}});
+    maker.light(AmbientLight{{1, 1, 1}});
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        const double z = 1 + static_cast<double>(sheets.size() - i) * height;
+        maker.add(rectangle({-4, -4, z}, {8, 0, 0}, {0, 8, 0}), maker.material(sheets[i]));
+    }
+    maker.add(shape, maker.material(material));
+    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
+    return color_of(maker, renderer, direction);
+}
+
+const AnyShape kCard = rectangle({-4, -4, 1}, {8, 0, 0}, {0, 8, 0});
+const char* const kWithOptics[] = {"whitted", "distributed", "whitted:fresnel=on,beer=on"};
+
+TEST(TouchingSolids, SheetsLieInTheOrderInWhichTheyAreNamed) {
+    Material red = sheet(0, 0.5), green = sheet(0), blue = sheet(0, 0.25);
+    red.metallic_roughness->base_color.color = {0.8, 0.1, 0.1};
+    green.metallic_roughness->base_color.color = {0.2, 0.9, 0.2};
+    blue.metallic_roughness->base_color.color = {0.3, 0.3, 0.9};
+    const AnyShape block = BoxShape{{-4, -4, 0}, {4, 4, 1}};
+    for (const std::string renderer : kWithOptics) {
+        for (const std::vector<Material>& stack : {std::vector<Material>{red, green},
+                                                   {green, red},
+                                                   {red, green, blue},
+                                                   {blue, red, green}}) {
+            for (const auto& [shape, material] :
+                 {std::pair{kCard, shining({1, 1, 1})}, std::pair{kCard, matt({0.5, 0.7, 0.9})},
+                  std::pair{block, glass(1, 0.7)}}) {
+                const Rgb together = seen_through(stack, shape, material, 0, renderer);
+                const Rgb apart = seen_through(stack, shape, material, 1e-5, renderer);
+                for (int i = 0; i < 3; ++i) EXPECT_NEAR(together[i], apart[i], 1e-5) << renderer;
+            }
+        }
+    }
+}
+
+TEST(TouchingSolids, SheetsAloneLieInTheOrderInWhichTheyAreNamed) {
+    Material red = sheet(0, 0.5), green = sheet(0);
+    red.metallic_roughness->base_color.color = {0.8, 0.1, 0.1};
+    green.metallic_roughness->base_color.color = {0.2, 0.9, 0.2};
+    const AnyShape lowest = rectangle({-4, -4, 1}, {8, 0, 0}, {0, 8, 0});
+    for (const std::string renderer : kWithOptics) {
+        for (const bool is_red : {false, true}) {
+            const Material &upper = is_red ? red : green, &lower = is_red ? green : red;
+            const Rgb together = seen_through({upper}, lowest, lower, 0, renderer);
+            const Rgb apart = seen_through({upper}, lowest, lower, 1e-5, renderer);
+            for (int i = 0; i < 3; ++i) EXPECT_NEAR(together[i], apart[i], 1e-5) << renderer;
+        }
+    }
+}
+
+/// Highlights, a colour without light and ambient light, below a sheet of index 1.5.
+TEST(TouchingSolids, HighlightsAndOwnColoursBelowASheetAreAsApart) {
+    Material clear = sheet(0), unlit = matt({0.2, 0.5, 0.9}), ambient, black = matt({0, 0, 0});
+    clear.index.value = 1.5;
+    unlit.metallic_roughness.emplace().unlit = true;
+    unlit.metallic_roughness->base_color.color = {0.2, 0.5, 0.9};
+    ambient.ambient.color = {1, 1, 1};
+    for (const std::string renderer : kWithOptics) {
+        for (const Material& below : {unlit, ambient, black}) {
+            for (const Vec3& along : {Vec3{0, 0, -1}, Vec3{0.6, 0, -0.8}}) {
+                const Rgb together = seen_through({clear}, kCard, below, 0, renderer, along);
+                const Rgb apart = seen_through({clear}, kCard, below, 1e-5, renderer, along);
+                for (int i = 0; i < 3; ++i) {
+                    EXPECT_NEAR(together[i], apart[i], 1e-5) << renderer << along.x;
+                }
+            }
+        }
+    }
+}
+
+/// Their energies are added, not their heights: with the exponent of the one, the other's would be
+/// a hundred times as bright.
+TEST(TouchingSolids, ASharpHighlightOnABroadOneKeepsItsEnergy) {
+    Material sharp = sheet(0), broad = sheet(0, 0.0);
+    sharp.index.value = broad.index.value = 1.5;
+    broad.metallic_roughness->base_color.color = {0, 0, 0};
+    broad.metallic_roughness->roughness.value = 0.5;
+    Material plain = matt({0, 0, 0});
+    plain.shininess.value = 10;
+    plain.specular.color = {0.1, 0.1, 0.1};
+    for (const std::string renderer : kWithOptics) {
+        for (const Material& below : {broad, plain}) {
+            const Vec3 aside = normalize(Vec3{0.4, 0, -0.9});
+            const double apart = seen_through({sharp}, kCard, below, 1e-5, renderer, aside).r;
+            const double together = seen_through({sharp}, kCard, below, 0, renderer, aside).r;
+            EXPECT_GT(together, 0.8 * apart) << renderer;
+            EXPECT_LT(together, 2.0 * apart) << renderer;
+        }
     }
 }
 
