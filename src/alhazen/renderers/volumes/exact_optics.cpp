@@ -109,7 +109,7 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
         std::vector<Sheet> sheets = sheets_at(point, arrival);
         set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival,
                           {.optics = this}, point);
-        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), arrival, {}, point);
+        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), false, arrival, {}, point);
         return;
     }
     const MaterialSample& met = *point.material;
@@ -148,7 +148,7 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     if (!point.material->thin) {
         std::erase_if(sheets, [](const Sheet& sheet) { return !is_smooth(sheet.sample); });
     }
-    lay_below(std::move(sheets), arrival, sides, point);
+    lay_below(std::move(sheets), point.material->thin, arrival, sides, point);
 }
 
 bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
@@ -181,22 +181,20 @@ std::vector<ExactOptics::Sheet> ExactOptics::other_sheets(const ShadingPoint& po
     return sheets;
 }
 
-void ExactOptics::lay_below(std::vector<Sheet> sheets, const Arrival& arrival, const Sides& sides,
-                            ShadingPoint& point) const {
-    // A sheet that was hit has the others behind it; of others the last is next to the surface.
-    if (!point.material->thin) std::reverse(sheets.begin(), sheets.end());
-    for (const Sheet& sheet : sheets) lay_below(sheet, arrival, sides, point);
+void ExactOptics::lay_below(std::vector<Sheet> sheets, bool is_first, const Arrival& arrival,
+                            const Sides& sides, ShadingPoint& point) const {
+    if (!is_first) std::reverse(sheets.begin(), sheets.end());
+    for (const Sheet& sheet : sheets) lay_below(sheet, is_first, arrival, sides, point);
 }
 
-void ExactOptics::lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
-                            ShadingPoint& point) const {
+void ExactOptics::lay_below(const Sheet& sheet, bool is_first, const Arrival& arrival,
+                            const Sides& sides, ShadingPoint& point) const {
     // The sheet is on the side of the lower index, or outside.
-    const bool is_sheet = point.material->thin;
     const bool is_outside =
         sides.here == sides.beyond && !point.entering && !point.passing.is_black();
-    const bool is_behind = is_sheet || sides.here > sides.beyond || is_outside;
+    const bool is_behind = is_first || sides.here > sides.beyond || is_outside;
     double cosine = dot(point.view, point.normal);
-    if (is_behind && !is_sheet) {
+    if (is_behind && !is_first) {
         const double squared = 1.0 - point.behind.eta * point.behind.eta * (1.0 - cosine * cosine);
         if (!(squared > 0.0)) return;
         cosine = std::sqrt(squared);

@@ -112,10 +112,11 @@ class ExactOptics final : public SurfaceOptics {
                                                const Arrival& arrival) const;
     [[nodiscard]] std::vector<Sheet> other_sheets(const ShadingPoint& point,
                                                   const Arrival& arrival) const;
-    /// Lays the point below sheets, the uppermost of which comes first; a sheet, before others.
-    void lay_below(std::vector<Sheet> sheets, const Arrival& arrival, const Sides& sides,
-                   ShadingPoint& point) const;
-    void lay_below(const Sheet& sheet, const Arrival& arrival, const Sides& sides,
+    /// Lays the point below sheets, the uppermost of which comes first. `is_first`: the point is a
+    /// sheet, before all of them.
+    void lay_below(std::vector<Sheet> sheets, bool is_first, const Arrival& arrival,
+                   const Sides& sides, ShadingPoint& point) const;
+    void lay_below(const Sheet& sheet, bool is_first, const Arrival& arrival, const Sides& sides,
                    ShadingPoint& point) const;
     /// A face that a ray crosses.
     struct Face {

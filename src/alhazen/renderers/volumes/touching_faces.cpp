@@ -38,7 +38,7 @@ class TouchingFaces::BelowSheets final : public SurfaceOptics {
         CoincidentFaces& faces = touching_.faces_;
         faces.find(point, -point.view, arrival, arrival.mask);
         touching_.join(point.surface.media.known ? OtherFaces{} : faces.others(), arrival, point);
-        touching_.lay_below(sheets_, point);
+        touching_.lay_below(sheets_, false, point);
     }
 
   private:
@@ -53,7 +53,7 @@ void TouchingFaces::set_media(const Arrival& arrival, ShadingPoint& point) {
         // Its material bounds no volume: no further faces are looked for.
         std::vector<MaterialSample> sheets = sheets_at(point, arrival, true);
         set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival, {}, point);
-        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), point);
+        if (!hides_sheets(scene_, point)) lay_below(std::move(sheets), false, point);
         return;
     }
     if (point.material->thin && faces_.instead()) {
@@ -62,7 +62,7 @@ void TouchingFaces::set_media(const Arrival& arrival, ShadingPoint& point) {
                                  {.optics = &below}, point);
     }
     join(point.material->thin ? OtherFaces{} : faces_.others(), arrival, point);
-    lay_below(sheets_at(point, arrival, false), point);
+    lay_below(sheets_at(point, arrival, false), point.material->thin, point);
 }
 
 std::vector<MaterialSample> TouchingFaces::sheets_at(const ShadingPoint& point,
@@ -78,11 +78,12 @@ std::vector<MaterialSample> TouchingFaces::sheets_at(const ShadingPoint& point,
     return sheets;
 }
 
-void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const {
+void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, bool is_first,
+                              ShadingPoint& point) const {
     if (sheets.empty()) return;
     double cosine = dot(point.view, point.normal);
-    bool is_behind = point.material->thin;
-    if (!is_behind && !point.passing.is_black()) {
+    bool is_behind = is_first;
+    if (!is_first && !point.passing.is_black()) {
         // The sheets are on the side of the lower index, or outside.
         const double air = scene_.conventions.shading.air_index;
         const double eta = point.behind.known ? point.behind.eta
@@ -95,8 +96,7 @@ void TouchingFaces::lay_below(std::vector<MaterialSample> sheets, ShadingPoint& 
             cosine = std::sqrt(squared);
         }
     }
-    // A sheet that was hit has the others behind it; of others the last is next to the surface.
-    if (!point.material->thin) std::reverse(sheets.begin(), sheets.end());
+    if (!is_first) std::reverse(sheets.begin(), sheets.end());
     for (MaterialSample& sheet : sheets) {
         turn_to_view(sheet, cosine, false);
         alhazen::lay_below(sheet, is_behind, point);

@@ -37,9 +37,9 @@ class TouchingFaces final : public SurfaceOptics {
     /// itself included, if it is one and `own`.
     [[nodiscard]] std::vector<MaterialSample> sheets_at(const ShadingPoint& point,
                                                         const Arrival& arrival, bool own) const;
-    /// Lays a completed point below sheets, the uppermost of which comes first; a sheet, before
-    /// others.
-    void lay_below(std::vector<MaterialSample> sheets, ShadingPoint& point) const;
+    /// Lays a completed point below sheets, the uppermost of which comes first. `is_first`: the
+    /// point is a sheet, before all of them.
+    void lay_below(std::vector<MaterialSample> sheets, bool is_first, ShadingPoint& point) const;
     /// True if a face is crossed together with that of the point.
     [[nodiscard]] bool is_joined(const ShadingPoint& point, const OtherFace& other) const;
     /// True if a face of a material bounds a volume.

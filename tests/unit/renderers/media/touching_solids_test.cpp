@@ -281,6 +281,10 @@ TEST(TouchingSolids, SheetsLieInTheOrderInWhichTheyAreNamed) {
     red.metallic_roughness->base_color.color = {0.8, 0.1, 0.1};
     green.metallic_roughness->base_color.color = {0.2, 0.9, 0.2};
     blue.metallic_roughness->base_color.color = {0.3, 0.3, 0.9};
+    Material physical;
+    physical.index.value = 1.0;
+    physical.metallic_roughness.emplace().base_color.color = {0.5, 0.7, 0.9};
+    physical.metallic_roughness->metallic.value = 0;
     const AnyShape block = BoxShape{{-4, -4, 0}, {4, 4, 1}};
     for (const std::string renderer : kWithOptics) {
         for (const std::vector<Material>& stack : {std::vector<Material>{red, green},
@@ -289,7 +293,7 @@ TEST(TouchingSolids, SheetsLieInTheOrderInWhichTheyAreNamed) {
                                                    {blue, red, green}}) {
             for (const auto& [shape, material] :
                  {std::pair{kCard, shining({1, 1, 1})}, std::pair{kCard, matt({0.5, 0.7, 0.9})},
-                  std::pair{block, glass(1, 0.7)}}) {
+                  std::pair{kCard, physical}, std::pair{block, glass(1, 0.7)}}) {
                 const Rgb together = seen_through(stack, shape, material, 0, renderer);
                 const Rgb apart = seen_through(stack, shape, material, 1e-5, renderer);
                 for (int i = 0; i < 3; ++i) EXPECT_NEAR(together[i], apart[i], 1e-5) << renderer;
@@ -333,8 +337,7 @@ TEST(TouchingSolids, HighlightsAndOwnColoursBelowASheetAreAsApart) {
     }
 }
 
-/// Their energies are added, not their heights: with the exponent of the one, the other's would be
-/// a hundred times as bright.
+/// It has the height of its energy with the exponent of the broad one, and that one's N.L.
 TEST(TouchingSolids, ASharpHighlightOnABroadOneKeepsItsEnergy) {
     Material sharp = sheet(0), broad = sheet(0, 0.0);
     sharp.index.value = broad.index.value = 1.5;
@@ -343,13 +346,22 @@ TEST(TouchingSolids, ASharpHighlightOnABroadOneKeepsItsEnergy) {
     Material plain = matt({0, 0, 0});
     plain.shininess.value = 10;
     plain.specular.color = {0.1, 0.1, 0.1};
+    constexpr double kSharp = 1248, kBroad = 30, kPlain = 10, kLit = 0.8;
+    const Vec3 light{0.6, 0, 0.8}, aside = normalize(Vec3{0.4, 0, -0.9});
+    const double cosine = normalize(light - aside).z;
     for (const std::string renderer : kWithOptics) {
-        for (const Material& below : {broad, plain}) {
-            const Vec3 aside = normalize(Vec3{0.4, 0, -0.9});
-            const double apart = seen_through({sharp}, kCard, below, 1e-5, renderer, aside).r;
-            const double together = seen_through({sharp}, kCard, below, 0, renderer, aside).r;
-            EXPECT_GT(together, 0.8 * apart) << renderer;
-            EXPECT_LT(together, 2.0 * apart) << renderer;
+        const double peak =
+            seen_through({sharp}, kCard, matt({0, 0, 0}), 1e-5, renderer, {0.6, 0, -0.8}).r;
+        const double tail = seen_through({sharp}, kCard, matt({0, 0, 0}), 1e-5, renderer, aside).r;
+        for (const bool is_plain : {false, true}) {
+            const Material& below = is_plain ? plain : broad;
+            const double exponent = is_plain ? kPlain : kBroad;
+            const double height = peak * (exponent + 2) / (kSharp + 2) / (is_plain ? kLit : 1.0);
+            const double expected = seen_through({sharp}, kCard, below, 1e-5, renderer, aside).r -
+                                    tail + height * std::pow(cosine, exponent);
+            EXPECT_NEAR(seen_through({sharp}, kCard, below, 0, renderer, aside).r, expected,
+                        0.03 * expected)
+                << renderer << is_plain;
         }
     }
 }
