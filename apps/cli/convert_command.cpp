@@ -22,9 +22,10 @@ struct ConvertArguments {
     ConvertOptions convert;
 };
 
-TessellationReport triangles_of(SceneDescription& description, double tolerance, bool keep_others) {
+TessellationReport triangles_of(SceneDescription& description, double tolerance, bool keep_others,
+                                int threads) {
     try {
-        return tessellate(description, tolerance, keep_others);
+        return tessellate(description, tolerance, keep_others, kMostTessellated, threads);
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Scene) throw;
         throw Error(ErrorKind::Scene, std::string(error.what()) +
@@ -44,7 +45,8 @@ int run(const ConvertArguments& args) {
         // A native file can hold shapes without a tessellation; --meshes-only leaves them out.
         const bool keep_others = args.convert.meshes_only ||
                                  std::filesystem::path(args.output).extension() == ".alhazen";
-        const TessellationReport report = triangles_of(description, *args.tolerance, keep_others);
+        const TessellationReport report =
+            triangles_of(description, *args.tolerance, keep_others, args.scene.threads);
         if (args.scene.strict && !report.lost.empty()) {
             std::string message = "triangles cannot hold all of the scene:";
             for (const std::string& line : report.lost) message += "\nerror: " + line;

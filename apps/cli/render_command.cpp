@@ -179,7 +179,7 @@ int run(const RenderArguments& args) {
         if (!args.quiet) tell("{}\n", note);
     }
     if (const double within = renderer.takes_triangles_within(); within > 0) {
-        (void)tessellate(loaded.description, within, true);
+        (void)tessellate(loaded.description, within, true, kMostTessellated, options.threads);
     }
     options.progress = &progress;
     options.stop = &stop_on_signals();

@@ -107,7 +107,10 @@ int run_vector(const VectorArguments& args) {
         drawing = technical_drawing(loaded, options,
                                     {.tolerance = tolerance_of(args, loaded), .hidden = hidden});
     } else {
-        if (args.tolerance > 0) (void)tessellate(loaded.description, args.tolerance, true);
+        if (args.tolerance > 0) {
+            (void)tessellate(loaded.description, args.tolerance, true, kMostTessellated,
+                             args.scene.threads);
+        }
         drawing = draw_scene(loaded, options, look);
     }
     write_report(args.output, write(drawing));

@@ -90,6 +90,7 @@ void RayTreeRecorder::set_ambient(const ShadingPoint& point, SurfaceNode& node) 
     bare_.medium = point.medium;
     bare_.normal = point.normal;
     bare_.view = point.view;
+    bare_.highlights = point.highlights;
     node.ambient_factor = unshadowed_terms(conventions_, kOne, bare_);
     node.ambient = ambient_;
 }

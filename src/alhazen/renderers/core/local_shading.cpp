@@ -206,6 +206,7 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
                             const PointNeeds& needs, ShadingPoint& point) {
     point.inside = arrival.inside;
     point.sheets = {1, 1, 1};
+    point.highlights.clear();
     std::array<UvFootprint, 2> footprint;
     const bool varies =
         set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);
@@ -302,13 +303,11 @@ double schlick_highlight(double cosine, double shininess) {
     return c / (shininess - shininess * c + c);
 }
 
-}  // namespace
-
-Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& m,
+Rgb with_highlight(const ShadingConventions& conventions, const SheetHighlight& m,
                    double highlight_cosine, double cosine, const Rgb& matt) {
     // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
     if (!(highlight_cosine > 0.0)) return matt;
-    const double falloff = m.highlight_by_cosine ? cosine : 1.0;
+    const double falloff = m.by_cosine ? cosine : 1.0;
     const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
     if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, matt)) return matt;
     const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
@@ -316,12 +315,21 @@ Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& 
     return matt + (falloff * highlight) * m.specular;
 }
 
+}  // namespace
+
+Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& m,
+                   double highlight_cosine, double cosine, const Rgb& matt) {
+    return with_highlight(conventions, SheetHighlight{m.specular, m.shininess, m.physical},
+                          highlight_cosine, cosine, matt);
+}
+
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
                        const LightSample& light, double cosine) {
     const MaterialSample& m = *point.material;
     const Vec3& to_light = light.to_light;
     const Rgb fraction = cosine * m.diffuse;
-    if (m.specular.is_black() || (!light.glints && !m.transmissive.is_black())) return fraction;
+    if (m.specular.is_black() && point.highlights.empty()) return fraction;
+    if (!light.glints && !m.transmissive.is_black()) return fraction;
     double highlight_cosine;
     if (conventions.highlight == ShadingConventions::Highlight::BlinnPhong) {
         highlight_cosine = dot(point.normal, normalize(to_light + point.view));
@@ -329,7 +337,11 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
         highlight_cosine = dot(mirrored, point.view);
     }
-    return with_highlight(conventions, m, highlight_cosine, cosine, fraction);
+    Rgb whole = with_highlight(conventions, m, highlight_cosine, cosine, fraction);
+    for (std::size_t k = 0; k < point.highlights.size(); ++k) {
+        whole = with_highlight(conventions, point.highlights[k], highlight_cosine, cosine, whole);
+    }
+    return whole;
 }
 
 Rgb unhindered_light(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "alhazen/base/inline_vector.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/scene/scene.h"
@@ -37,6 +38,13 @@ struct BehindSurface {
     return ray;
 }
 
+/// The highlight of a thin sheet at the place of another surface.
+struct SheetHighlight {
+    Rgb specular;
+    double shininess = 0;
+    bool by_cosine = false;  ///< times N.L
+};
+
 /// A hit ready for shading; directions are on the side from which the ray came.
 struct ShadingPoint {
     ShadingPoint() = default;
@@ -60,6 +68,7 @@ struct ShadingPoint {
     BehindSurface behind;
     Rgb passing;          ///< kt of the surface; at a wall, of both media
     Rgb sheets{1, 1, 1};  ///< of `passing`, the share of thin sheets at the place of a boundary
+    InlineVector<SheetHighlight, 3> highlights;  ///< of those, beside that of the material
     /// kt of the medium that a solid of several media states on this side; else of the surface.
     Rgb medium;
     bool medium_is_physical = false;  ///< it has an absorption; kt is not applied by distance

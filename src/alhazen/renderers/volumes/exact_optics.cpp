@@ -148,7 +148,15 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point,
     if (!point.material->thin) {
         std::erase_if(sheets, [](const Sheet& sheet) { return !is_smooth(sheet.sample); });
     }
-    lay_below(std::move(sheets), point.material->thin, arrival, sides, point);
+    bool is_first = point.material->thin;
+    if (is_first && std::ranges::any_of(faces_.others(), [](const OtherFace& face) {
+            return !face.entering && !face.wall;
+        })) {
+        // From inside the sheet that is named first is the last one.
+        is_first = false;
+        std::reverse(sheets.begin(), sheets.end());
+    }
+    lay_below(std::move(sheets), is_first, arrival, sides, point);
 }
 
 bool ExactOptics::yields(const ShadingPoint& point, std::uint32_t around, const Sides& sides) {
@@ -190,8 +198,8 @@ void ExactOptics::lay_below(std::vector<Sheet> sheets, bool is_first, const Arri
 void ExactOptics::lay_below(const Sheet& sheet, bool is_first, const Arrival& arrival,
                             const Sides& sides, ShadingPoint& point) const {
     // The sheet is on the side of the lower index, or outside.
-    const bool is_outside =
-        sides.here == sides.beyond && !point.entering && !point.passing.is_black();
+    const bool is_outside = sides.here == sides.beyond && !point.entering &&
+                            !point.material->thin && !point.passing.is_black();
     const bool is_behind = is_first || sides.here > sides.beyond || is_outside;
     double cosine = dot(point.view, point.normal);
     if (is_behind && !is_first) {

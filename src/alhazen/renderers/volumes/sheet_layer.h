@@ -11,8 +11,8 @@
 namespace alhazen {
 
 /// Changes the sample and `passing` of a completed point to those below or before the sheet. The
-/// sheet is evaluated and turned to the ray. Where both glint, highlights have the shape of the
-/// broader one; where both mirror, lobes have that of the surface.
+/// sheet is evaluated and turned to the ray. Each has its own highlight; where both mirror, lobes
+/// have the shape of the surface's.
 void lay_below(const MaterialSample& sheet, bool sheet_is_behind, ShadingPoint& point);
 
 /// True if the sheets at the place of the surface lie behind it: they are outside of solids.

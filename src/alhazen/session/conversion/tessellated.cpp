@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shapes/shape_tessellation.h"
@@ -365,12 +366,15 @@ class Tessellation {
 }  // namespace
 
 TessellationReport tessellate(SceneDescription& description, double tolerance, bool keep_others,
-                              std::uint64_t max_triangles) {
+                              std::uint64_t max_triangles, int threads) {
     if (!(tolerance > 0.0) || !std::isfinite(tolerance)) {
         throw Error(ErrorKind::Usage,
                     fmt::format("the tolerance must be a positive number, not {}", tolerance));
     }
-    return Tessellation(description, tolerance, keep_others, max_triangles).run();
+    TessellationReport report;
+    ThreadLimit(threads).run(
+        [&] { report = Tessellation(description, tolerance, keep_others, max_triangles).run(); });
+    return report;
 }
 
 }  // namespace alhazen

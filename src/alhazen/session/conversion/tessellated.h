@@ -10,6 +10,8 @@
 
 namespace alhazen {
 
+inline constexpr std::uint64_t kMostTessellated = 50'000'000;
+
 struct TessellationReport {
     std::uint64_t shapes = 0, triangles = 0;  ///< `shapes`: those that have triangles
     std::vector<std::string> kept;  ///< "FILE:L:C: plane: no triangles: the shape is endless"
@@ -21,9 +23,10 @@ struct TessellationReport {
 /// Replaces each shape of a valid scene by a mesh within `tolerance` of it. Throws Error: Usage if
 /// the tolerance is not a positive number; Scene, with one line per part, if a shape has no
 /// tessellation (it is unbounded, or open and no patch) and `keep_others` is false; Resource beyond
-/// `max_triangles`.
+/// `max_triangles`. `threads` 0: all available cores.
 [[nodiscard]] TessellationReport tessellate(SceneDescription& description, double tolerance,
                                             bool keep_others = false,
-                                            std::uint64_t max_triangles = 50'000'000);
+                                            std::uint64_t max_triangles = kMostTessellated,
+                                            int threads = 0);
 
 }  // namespace alhazen

@@ -193,16 +193,15 @@ struct MaterialSample {
     double shininess = 0, index = 1;
     double roughness = 0;  ///< spread of reflected and refracted rays; 0: none
 
-    double coverage = 1;               ///< opacity of the point; the rest of a ray goes straight on
-    Rgb albedo;                        ///< base colour of the surface, for output
-    Rgb absorption;                    ///< coefficient inside, per scene unit
-    double occlusion = 1;              ///< already in `ambient`
-    bool unlit = false;                ///< the colour is in `emission`; all else is black
-    bool thin = false;                 ///< transmitted light goes straight on; there is no inside
-    bool physical = false;             ///< physical model: Fresnel applies
-    bool highlight_by_cosine = false;  ///< the highlight is times N.L
-    Rgb grazing;                       ///< `reflective` at grazing incidence, if physical
-    bool single_sided = false;         ///< invisible from behind
+    double coverage = 1;        ///< opacity of the point; the rest of a ray goes straight on
+    Rgb albedo;                 ///< base colour of the surface, for output
+    Rgb absorption;             ///< coefficient inside, per scene unit
+    double occlusion = 1;       ///< already in `ambient`
+    bool unlit = false;         ///< the colour is in `emission`; all else is black
+    bool thin = false;          ///< transmitted light goes straight on; there is no inside
+    bool physical = false;      ///< physical model: highlight times N.L, Fresnel applies
+    Rgb grazing;                ///< `reflective` at grazing incidence, if physical
+    bool single_sided = false;  ///< invisible from behind
 };
 
 [[nodiscard]] MaterialSample evaluate(const Material& material, std::span<const Texture> textures,

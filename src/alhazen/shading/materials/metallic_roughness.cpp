@@ -107,7 +107,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
             channel_of(texel_at(p.occlusion.texture, textures, lookup), p.occlusion.channel);
         s.occlusion = clamped(1.0 + p.occlusion.value * (texel - 1.0));
     }
-    s.physical = s.highlight_by_cosine = true;
+    s.physical = true;
     s.index = value_at(material.index, textures, lookup);
     s.emission = color(material.emission);
 
