@@ -303,24 +303,24 @@ double schlick_highlight(double cosine, double shininess) {
     return c / (shininess - shininess * c + c);
 }
 
-Rgb with_highlight(const ShadingConventions& conventions, const SheetHighlight& m,
-                   double highlight_cosine, double cosine, const Rgb& matt) {
+inline Rgb with_lobe(const ShadingConventions& conventions, const Rgb& specular, double shininess,
+                     bool by_cosine, double highlight_cosine, double cosine, const Rgb& matt) {
     // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
     if (!(highlight_cosine > 0.0)) return matt;
-    const double falloff = m.by_cosine ? cosine : 1.0;
+    const double falloff = by_cosine ? cosine : 1.0;
     const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
-    if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, matt)) return matt;
-    const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
-                                     : std::pow(highlight_cosine, m.shininess);
-    return matt + (falloff * highlight) * m.specular;
+    if (!schlick && is_lost(highlight_cosine, shininess, specular, matt)) return matt;
+    const double highlight = schlick ? schlick_highlight(highlight_cosine, shininess)
+                                     : std::pow(highlight_cosine, shininess);
+    return matt + (falloff * highlight) * specular;
 }
 
 }  // namespace
 
 Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& m,
                    double highlight_cosine, double cosine, const Rgb& matt) {
-    return with_highlight(conventions, SheetHighlight{m.specular, m.shininess, m.physical},
-                          highlight_cosine, cosine, matt);
+    return with_lobe(conventions, m.specular, m.shininess, m.physical, highlight_cosine, cosine,
+                     matt);
 }
 
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
@@ -339,7 +339,9 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
     }
     Rgb whole = with_highlight(conventions, m, highlight_cosine, cosine, fraction);
     for (std::size_t k = 0; k < point.highlights.size(); ++k) {
-        whole = with_highlight(conventions, point.highlights[k], highlight_cosine, cosine, whole);
+        const SheetHighlight& sheet = point.highlights[k];
+        whole = with_lobe(conventions, sheet.specular, sheet.shininess, sheet.by_cosine,
+                          highlight_cosine, cosine, whole);
     }
     return whole;
 }

@@ -62,6 +62,7 @@ void TouchingFaces::set_media(const Arrival& arrival, ShadingPoint& point) {
                                  {.optics = &below}, point);
     }
     join(point.material->thin ? OtherFaces{} : faces_.others(), arrival, point);
+    if (faces_.sheets().empty()) return;
     lay_below(sheets_at(point, arrival, false), point.material->thin, point);
 }
 
@@ -69,6 +70,7 @@ std::vector<MaterialSample> TouchingFaces::sheets_at(const ShadingPoint& point,
                                                      const Arrival& arrival, bool own) const {
     std::vector<MaterialSample> sheets;
     if (own && point.material->thin) sheets.push_back(*point.material);
+    if (faces_.sheets().empty()) return sheets;
     ShadingPoint other;
     for (const Hit& hit : faces_.sheets()) {
         KeptAsEvaluated as_evaluated;
