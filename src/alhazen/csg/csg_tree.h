@@ -7,10 +7,11 @@
 /// Normalization and Geometric Pruning", IEEE CG&A 9(3), 1989 (positive form).
 /// Differs: equal nested operators are merged; a complement does not bound its parent, but is
 /// itself bounded by its primitive; where the boxes do not bound an intersection, its half spaces
-/// may (convex_corners.h). Conventions: points outside the S-bound of a leaf may be evaluated as
-/// outside the leaf's primitive without changing the value of the root. Complexity and threads:
-/// O(n) per sweep, at most four sweeps, and O(half spaces^2) for at most 1000 of an intersection
-/// without a bounded box. Immutable after construction.
+/// may (convex_corners.h).
+/// Conventions: points outside the S-bound of a leaf may be evaluated as outside the leaf's
+/// primitive without changing the value of the root.
+/// Complexity and threads: O(n) per sweep, at most four sweeps, and O(half spaces^2) for at most
+/// 1000 of an intersection without a bounded box. Immutable after construction.
 
 #include <cstdint>
 #include <optional>

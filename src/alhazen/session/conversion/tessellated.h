@@ -6,10 +6,15 @@
 /// materials and names are kept. A CSG solid becomes a group of one mesh. The tessellations are
 /// described in shape_tessellation.h and solids/triangles/solid_triangles.h.
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 
+/// The largest number of triangles of a scene, before those of solids are merged.
 inline constexpr std::uint64_t kMostTessellated = 50'000'000;
 
 struct TessellationReport {
