@@ -16,13 +16,17 @@ namespace {
 
 using namespace alhazen::testing;
 
-TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
-    SceneMaker maker;
+AreaLight unseen_sphere() {
     AreaLight lamp;
     lamp.extent = SphereExtent{{0, 0, 3}, 1};
     lamp.seen = false;
     lamp.radiance = {2, 2, 2};
-    maker.light(lamp);
+    return lamp;
+}
+
+TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
+    SceneMaker maker;
+    maker.light(unseen_sphere());
     const Scene scene = maker.compile();
     const Illumination lights(scene);
     RandomStream random(1);
@@ -40,11 +44,8 @@ TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
 /// No ray meets the light: that of the inner side passes through the rest of the surface.
 TEST(Emitters, HiddenSpheresOfTwoSidesShineFromBoth) {
     SceneMaker maker;
-    AreaLight lamp;
-    lamp.extent = SphereExtent{{0, 0, 3}, 1};
-    lamp.seen = false;
+    AreaLight lamp = unseen_sphere();
     lamp.two_sided = true;
-    lamp.radiance = {2, 2, 2};
     maker.light(lamp);
     const Scene scene = maker.compile();
     const Illumination lights(scene);

@@ -57,6 +57,12 @@ double largest_distance(const IsolatedSolid& solid, const TriangleMesh& mesh, do
     return most;
 }
 
+/// A random rotation, and a random way of at most `far`.
+Affine placed(Random& random, double far) {
+    return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
+           Affine::rotate(random.unit_vector(), random.uniform(0, 3));
+}
+
 double volume_of(const TriangleMesh& mesh) {
     double six = 0;
     for (const auto& t : mesh.triangles) {
@@ -352,15 +358,13 @@ TEST(SolidTriangles, OfRandomSolidsAreClosedAndNear) {
         const ObjectIndex cut = maker.object("random");
         maker.description().objects.back().combine =
             round % 3 == 0 ? Combine::Union : Combine::Difference;
-        const auto place = [&](double far) {
-            return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
-                   Affine::rotate(random.unit_vector(), random.uniform(0, 3));
-        };
-        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.1), cut);
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, placed(random, 0.1),
+                  cut);
         maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.4}, MaterialId{0},
-                  place(0.3), cut);
-        maker.add(BoxShape{.lo = {0, 0, 0}, .hi = {1, 2, 3}}, MaterialId{0}, place(0.5), cut);
-        maker.add(Sphere{.radius = 0.6}, MaterialId{0}, place(1), cut);
+                  placed(random, 0.3), cut);
+        maker.add(BoxShape{.lo = {0, 0, 0}, .hi = {1, 2, 3}}, MaterialId{0}, placed(random, 0.5),
+                  cut);
+        maker.add(Sphere{.radius = 0.6}, MaterialId{0}, placed(random, 1), cut);
         (void)maker.material({});
         maker.add(cut);
         const SolidList solids(maker.compile().aggregate);
@@ -410,14 +414,12 @@ TEST(SolidTriangles, AreNotTurnedOverBesideSharpEdges) {
         const ObjectIndex cut = maker.object("random");
         maker.description().objects.back().combine =
             round % 2 == 0 ? Combine::Intersection : Combine::Difference;
-        const auto place = [&](double far) {
-            return Affine::translate(random.uniform(0, far) * random.unit_vector()) *
-                   Affine::rotate(random.unit_vector(), random.uniform(0, 3));
-        };
-        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.1), cut);
-        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, place(0.9), cut);
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, placed(random, 0.1),
+                  cut);
+        maker.add(BoxShape{.lo = {-1, -1, -1}, .hi = {1, 1, 1}}, MaterialId{0}, placed(random, 0.9),
+                  cut);
         maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.8}, MaterialId{0},
-                  place(0.9), cut);
+                  placed(random, 0.9), cut);
         (void)maker.material({});
         maker.add(cut);
         const SolidList solids(maker.compile().aggregate);
